@@ -1,13 +1,18 @@
 // The contact of a map of 2 x 2 mirror images, solved on one of them, is that of the whole map.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <memory>
+#include <numeric>
 #include <utility>
 
 #include "contact/surfaces.hpp"
 #include "tabor/contact/stiffness.hpp"
+#include "tabor/contact/trapped/pockets.hpp"
+#include "tabor/contact/trapped_liquid.hpp"
 #include "tabor/core/mirror_images.hpp"
 #include "tabor/core/parallel.hpp"
+#include "tabor/core/random.hpp"
 
 namespace tabor::test {
 namespace {
@@ -147,6 +152,84 @@ TEST(ContactOfImages, HasTheStiffnessOfTheWholeMap) {
       contact::contact_stiffness(*periodic, state, contact::kNoSaturation);
   ASSERT_TRUE(found.convergence.converged());
   EXPECT_NEAR(found.value / expected.value, 1, 1e-5);
+}
+
+/// Oil up to the mean height of the pixels around, as rain leaves it in hollows.
+Field oil_in_hollows(const Field& height) {
+  const Index ny = height.rows();
+  const Index nx = height.cols();
+  Field film(ny, nx);
+  for (Index y = 0; y < ny; ++y) {
+    for (Index x = 0; x < nx; ++x) {
+      const double around = height(y, (x + 1) % nx) + height(y, (x + nx - 1) % nx) +
+                            height((y + 1) % ny, x) + height((y + ny - 1) % ny, x);
+      film(y, x) = std::max(0.0, 0.5 * around / 4 - 0.5 * height(y, x));
+    }
+  }
+  return film;
+}
+
+TEST(ContactOfImages, TrapsTheOilOfTheWholeMap) {
+  for (const double pressure : {0.05, 0.2}) {
+    for (const double cap : {contact::kNoSaturation, 0.5}) {
+      SCOPED_TRACE(testing::Message() << pressure << ", cap " << cap);
+      const contact::Problem problem{.height = mirror_images(rough_quarter(64, 50)),
+                                     .control = contact::MeanPressure{pressure},
+                                     .bounds = {.upper = cap},
+                                     .tolerance = 1e-8};
+      const Field film = mirror_images(first_image(oil_in_hollows(problem.height)));
+      Whole whole(grid_of(problem.height));
+      const auto periodic = elastic::make_periodic(grid_of(problem.height), 1.0);
+      const contact::State dry = contact::solve(*periodic, problem);
+      const contact::TrappedState expected =
+          contact::solve_trapped(whole, problem, {.film = film, .bulk_modulus = 0.5}, dry);
+      const contact::TrappedState found =
+          contact::solve_trapped(*periodic, problem, {.film = film, .bulk_modulus = 0.5}, dry);
+      expect_same({expected.contact, found.contact});
+      EXPECT_GT(expected.liquid.n_squeezed, 8);
+      EXPECT_EQ(found.liquid.n_pockets, expected.liquid.n_pockets);
+      EXPECT_EQ(found.liquid.n_squeezed, expected.liquid.n_squeezed);
+      EXPECT_EQ(found.liquid.n_at_seal, expected.liquid.n_at_seal);
+      EXPECT_EQ(found.liquid.seal_rounds, expected.liquid.seal_rounds);
+      EXPECT_NEAR(found.liquid.load_share / expected.liquid.load_share, 1, 1e-3);
+      EXPECT_NEAR(found.liquid.pocket_volume / expected.liquid.pocket_volume, 1, 1e-12);
+      EXPECT_NEAR(found.liquid.open_volume, expected.liquid.open_volume,
+                  1e-12 * expected.liquid.pocket_volume);
+      EXPECT_NEAR(found.liquid.leaked_fraction, expected.liquid.leaked_fraction, 1e-3);
+      EXPECT_LE((found.liquid_pressure - expected.liquid_pressure).abs().mean(),
+                1e-3 * expected.liquid_pressure.mean());
+    }
+  }
+}
+
+/// Regions that run through the cell of 2 x 2 images reach opposite borders of one.
+TEST(ContactOfImages, HasThePocketsOfTheWholeMap) {
+  const Grid grid{6, 5, 6.0, 5.0};
+  const CounterRandom random(3);
+  for (std::uint64_t map = 0; map < 300; ++map) {
+    Mask contact(grid.ny, grid.nx);
+    Field film(grid.ny, grid.nx);
+    for (Index i = 0; i < contact.size(); ++i) {
+      const auto place = 1000 * map + static_cast<std::uint64_t>(2 * i);
+      contact(i) = random.uniform(place) < 0.45;
+      film(i) = std::max(0.0, random.uniform(place + 1) - 0.6);
+    }
+    const contact::Pockets one =
+        contact::find_pockets(contact, film, grid, elastic::Border::mirrors);
+    const contact::Pockets all =
+        contact::find_pockets(mirror_images(contact), mirror_images(film), {12, 10, 12.0, 10.0},
+                              elastic::Border::repeats);
+    EXPECT_EQ(std::accumulate(one.copies.begin(), one.copies.end(), std::size_t{0}), all.size());
+    EXPECT_NEAR(4 * one.open_volume, all.open_volume, 1e-12);
+    for (Index y = 0; y < grid.ny; ++y) {
+      for (Index x = 0; x < grid.nx; ++x) {
+        const auto i = static_cast<std::size_t>(y * grid.nx + x);
+        const auto j = static_cast<std::size_t>(y * 2 * grid.nx + x);
+        EXPECT_EQ(one.of[i] == contact::kNoPocket, all.of[j] == contact::kNoPocket);
+        EXPECT_EQ(one.open[i], all.open[j]);
+      }
+    }
+  }
 }
 
 TEST(ContactOfImages, HasTheSameBitsForAnyThreadCount) {

@@ -40,7 +40,7 @@ TEST(Pockets, AreClosedRegionsOfGapAndWetContactWithLiquid) {
   const Field contact = digits({"000000", "011111", "010101", "011111", "000000", "000000"});
   const Field film = digits({"300000", "000000", "001200", "000000", "000000", "000000"});
   const Grid grid{6, 6, 6, 6};
-  const Pockets pockets = contact::find_pockets(contact > 0, film, grid, false);
+  const Pockets pockets = contact::find_pockets(contact > 0, film, grid, elastic::Border::ends);
   ASSERT_EQ(pockets.size(), 1U);
   EXPECT_THAT(pockets.pixels, ElementsAre(14, 15, 16));  // with the wet contact
   EXPECT_THAT(pockets.volume, ElementsAre(3));
@@ -55,17 +55,19 @@ TEST(Pockets, OfAPeriodicCellAreOpenWhereTheyRunThrough) {
   const Field contact = digits({"1111", "0000", "1111", "1001"});
   const Field film = digits({"0000", "0100", "0000", "0110"});
   const Grid grid{4, 4, 4, 4};
-  const Pockets pockets = contact::find_pockets(contact > 0, film, grid, true);
+  const Pockets pockets = contact::find_pockets(contact > 0, film, grid, elastic::Border::repeats);
   ASSERT_EQ(pockets.size(), 1U);
   EXPECT_THAT(pockets.pixels, ElementsAre(13, 14));
   EXPECT_EQ(pockets.open[4], 1);
-  EXPECT_EQ(contact::find_pockets(contact > 0, film, grid, false).size(), 0U);  // it ends there
+  EXPECT_EQ(contact::find_pockets(contact > 0, film, grid, elastic::Border::ends).size(),
+            0U);  // it ends there
 }
 
 TEST(Pockets, AreNotOilOnContactBesideOpenGap) {
   const Field contact = digits({"0000", "0110", "0110", "0000"});
   const Field film = digits({"0000", "0110", "0000", "0000"});
-  EXPECT_EQ(contact::find_pockets(contact > 0, film, {4, 4, 4, 4}, false).size(), 0U);
+  EXPECT_EQ(contact::find_pockets(contact > 0, film, {4, 4, 4, 4}, elastic::Border::ends).size(),
+            0U);
 }
 
 TEST(Seals, AreTheLowestBarriersOnTheWayOut) {
@@ -74,7 +76,7 @@ TEST(Seals, AreTheLowestBarriersOnTheWayOut) {
   Field film = Field::Zero(6, 6);
   film(2, 2) = 1;
   const Grid grid{6, 6, 6, 6};
-  const Pockets pockets = contact::find_pockets(pressure > 0, film, grid, false);
+  const Pockets pockets = contact::find_pockets(pressure > 0, film, grid, elastic::Border::ends);
   ASSERT_EQ(pockets.size(), 1U);
   const auto seal = [&](bool periodic, double cap) {
     return contact::seals_of(pressure, pockets, {0}, grid, periodic, cap);
@@ -89,7 +91,7 @@ TEST(Seals, CrossOtherPocketsAtThePressureOfTheirLiquid) {
   Field film = Field::Zero(3, 7);
   film(1, 1) = film(1, 3) = 1;
   const Grid grid{7, 3, 7, 3};
-  const Pockets pockets = contact::find_pockets(pressure > 0, film, grid, false);
+  const Pockets pockets = contact::find_pockets(pressure > 0, film, grid, elastic::Border::ends);
   ASSERT_EQ(pockets.size(), 2U);
   const auto seals = [&](double middle) {
     return contact::seals_of(pressure, pockets, {0, middle}, grid, false, kNoSaturation);
@@ -167,8 +169,8 @@ TEST(TrappedLiquid, OfSeveralPocketsIsThatOfAGeneralSolver) {  // slow with sani
     for (const double bulk_modulus : {kIncompressible, 2 * kUnitAmplitude}) {
       const UnitContact contact(height, 2 * kUnitAmplitude, cap, 1e-10);
       const Field film = 0.95 * kUnitAmplitude * (height < 0.3 * kUnitAmplitude).cast<double>();
-      const Pockets pockets =
-          contact::find_pockets(contact::contact_mask(contact.dry), film, contact.grid, true);
+      const Pockets pockets = contact::find_pockets(contact::contact_mask(contact.dry), film,
+                                                    contact.grid, elastic::Border::repeats);
       ASSERT_GT(pockets.size(), 3U);
       const auto seals =
           contact::seals_of(contact.dry.pressure, pockets, std::vector<double>(pockets.size(), 0),
@@ -226,8 +228,9 @@ TEST(TrappedLiquid, KeepsItsBooks) {
       EXPECT_TRUE((state.contact.pressure >= 0).all());
       EXPECT_TRUE((state.contact.pressure <= cap).all());
       EXPECT_TRUE((state.contact.pressure >= state.liquid_pressure * (1 - 1e-12)).all());
-      const Pockets pockets = contact::find_pockets(contact::contact_mask(rough.contact.dry),
-                                                    rough.film, rough.contact.grid, periodic);
+      const Pockets pockets = contact::find_pockets(
+          contact::contact_mask(rough.contact.dry), rough.film, rough.contact.grid,
+          periodic ? elastic::Border::repeats : elastic::Border::ends);
       double leaked = 0;
       for (std::size_t k = 0; k < pockets.size(); ++k) {
         double gap = 0;
@@ -296,8 +299,9 @@ TEST(TrappedLiquid, CarriesNothingWhereNoneIsLeft) {
   const Rough rough(6e-3, false);
   for (const double modulus : {0.01, 0.1, kIncompressible}) {
     const TrappedState state = rough.contact.with(rough.film, modulus);
-    const Pockets pockets = contact::find_pockets(contact::contact_mask(rough.contact.dry),
-                                                  rough.film, rough.contact.grid, false);
+    const Pockets pockets =
+        contact::find_pockets(contact::contact_mask(rough.contact.dry), rough.film,
+                              rough.contact.grid, elastic::Border::ends);
     double carried = 0;
     Index n_empty = 0;
     for (std::size_t k = 0; k < pockets.size(); ++k) {

@@ -57,12 +57,15 @@ TEST(Runs, ThatFillARowOrAColumnTouchThemselves) {
   EXPECT_TRUE(joins_of(runs_of({"###"}), false).empty());
 }
 
-TEST(Runs, KnowTheBorder) {
-  const Runs runs = runs_of({".#..", ".#.#", "#.#.", "..#."});
-  const std::vector<bool> expected{true, false, true, true, false, true};
+TEST(Runs, KnowTheBordersTheyReach) {
+  const Runs runs = runs_of({".#..", ".#.#", "#.#.", "####"});
+  const std::vector<int> expected{Runs::kTop,  0, Runs::kRight,
+                                  Runs::kLeft, 0, Runs::kLeft | Runs::kRight | Runs::kBottom};
+  ASSERT_EQ(runs.size(), expected.size());
   for (std::size_t run = 0; run < runs.size(); ++run) {
-    EXPECT_EQ(runs.is_at_border(run), expected[run]) << run;
+    EXPECT_EQ(runs.sides(run), expected[run]) << run;
   }
+  EXPECT_EQ(runs_of({"#"}).sides(0), Runs::kLeft | Runs::kRight | Runs::kTop | Runs::kBottom);
 }
 
 /// As many regions as joining pixel by pixel gives.

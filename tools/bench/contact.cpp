@@ -1,7 +1,9 @@
 // Counts and times of the contact solvers on generated surfaces.
 //
-//   bench_contact [n] [--baseline] [--surface edt|self-affine|ground] [--threads N] [--seed S]
-//                 [--loads X,X...]   elastic only, at these P / (E* rms slope)
+//   bench_contact [n] [--baseline] [--surface edt|self-affine|ground|cut-out] [--threads N]
+//                 [--seed S] [--loads X,X...]   elastic only, at these P / (E* rms slope)
+//
+// cut-out: the mirror images of a quarter, solved as a whole map and on one image.
 //
 // Prints one row per case: solver iterations, operator applications and FFT pairs are
 // deterministic; seconds and their ratios are not. s/pair: solver time over the time of one
@@ -19,6 +21,7 @@
 #include <vector>
 
 #include "tabor/contact/contact.hpp"
+#include "tabor/core/mirror_images.hpp"
 #include "tabor/core/parallel.hpp"
 #include "tabor/core/resources.hpp"
 #include "tabor/elastic/half_space.hpp"
@@ -89,6 +92,22 @@ Surface edt_surface(const Options& options) {
   }
   const double unit = aluminium() * rms_slope(surface.problem.height, surface.grid);
   add_elastic_loads(surface, "edt elastic", unit, options, {0.0025, 0.01, 0.025});
+  return surface;
+}
+
+/// A quarter of the edt surface, continued by its mirror images; `whole` moves all by a pixel, so
+/// that the solver does not find the images and presses the whole map.
+Surface cut_out(const Options& options, bool whole) {
+  Surface surface = edt_surface(options);
+  Field& height = surface.problem.height;
+  const Field images = mirror_images(first_image(height));
+  height = images;
+  for (Index y = 0; whole && y < height.rows(); ++y) {
+    for (Index x = 0; x < height.cols(); ++x) {
+      height(y, x) = images((y + 1) % height.rows(), (x + 1) % height.cols());
+    }
+  }
+  for (Load& load : surface.loads) load.name.replace(0, 3, whole ? "whole" : "image");
   return surface;
 }
 
@@ -213,6 +232,10 @@ int main(int argc, char** argv) {
   }
   if (options.surface == "ground") {  // only when asked for
     run_all(ground_surface(options), options.baseline, pair);
+  }
+  if (options.surface == "cut-out") {
+    run_all(cut_out(options, true), options.baseline, pair);
+    run_all(cut_out(options, false), options.baseline, pair);
   }
   return 0;
 }

@@ -35,8 +35,15 @@ State with_images(State image) {
 
 std::optional<State> state_of_image(const State& state) {
   if (!consists_of_images(state.pressure, 0)) return {};
-  State image;
-  image.pressure = first_image(state.pressure);
+  State image{.pressure = first_image(state.pressure),
+              .displacement = first_image(state.displacement),
+              .gap = first_image(state.gap),
+              .mean_pressure = state.mean_pressure,
+              .separation = state.separation,
+              .gap_error = state.gap_error,
+              .gap_limit = state.gap_limit,
+              .convergence = state.convergence,
+              .compact_steps = state.compact_steps};
   return image;
 }
 

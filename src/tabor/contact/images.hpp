@@ -15,8 +15,8 @@ std::optional<Problem> problem_of_image(const Problem& problem);
 /// Returns the state of the whole map from that of its first quarter.
 State with_images(State image);
 
-/// Returns what contact_stiffness() needs of the state on the first of 2 x 2 mirror images; nothing
-/// where the pressure is no such images.
+/// Returns the state on the first of 2 x 2 mirror images; nothing where the pressure is no such
+/// images.
 std::optional<State> state_of_image(const State& state);
 
 }  // namespace tabor::contact

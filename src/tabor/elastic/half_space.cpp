@@ -61,9 +61,7 @@ class ConvolutionOperator : public ElasticOperator {
   void run(std::optional<spectral::Convolution<Real>>& convolution, const Map& in,
            const spectral::Multiplier<Real>& values, Map& out) {
     const Stopwatch watch;
-    if (!convolution) {
-      convolution.emplace(grid_.ny, grid_.nx, padding_of(border_));
-    }
+    if (!convolution) convolution.emplace(grid_.ny, grid_.nx, padding_of(border_));
     out.resize(grid_.ny, grid_.nx);
     convolution->apply(in.data(), values, out.data());
     fft_seconds_ += watch.seconds();

@@ -30,8 +30,8 @@ double under_contact(const numerics::Runs& gap, const Field& film) {
 }
 
 /// Liquid [m^3] under contact; the regions' own sums go into `result`, by root.
-template <bool periodic>
-double add_up(contact::Regions<periodic>& regions, const Field& film, const Field& gap,
+template <elastic::Border border>
+double add_up(contact::Regions<border>& regions, const Field& film, const Field& gap,
               double pixel_area, std::vector<GapRegion>& result) {
   const numerics::Runs& runs = regions.runs();
   std::vector<std::int32_t> position(runs.size(), -1);
@@ -53,11 +53,11 @@ double add_up(contact::Regions<periodic>& regions, const Field& film, const Fiel
 }
 
 /// As add_up() of all regions.
-template <bool periodic>
+template <elastic::Border border>
 double add_up_regions(const Mask& contact, const Field& film, const Field& gap, const Grid& grid,
                       std::vector<GapRegion>& result) {
   const bool* touching = contact.data();
-  contact::Regions<periodic> regions(grid, [touching](Index i) { return !touching[i]; });
+  contact::Regions<border> regions(grid, [touching](Index i) { return !touching[i]; });
   return add_up(regions, film, gap, grid.pixel_area(), result);
 }
 
@@ -73,8 +73,8 @@ TrappedLiquid trapped_liquid(const Mask& contact, const Field& film, const Field
   }
   TrappedLiquid result;
   const double under_contact =
-      periodic ? add_up_regions<true>(contact, film, gap, grid, result.regions)
-               : add_up_regions<false>(contact, film, gap, grid, result.regions);
+      periodic ? add_up_regions<elastic::Border::repeats>(contact, film, gap, grid, result.regions)
+               : add_up_regions<elastic::Border::ends>(contact, film, gap, grid, result.regions);
   std::erase_if(result.regions, [](const GapRegion& region) { return region.liquid_volume == 0; });
   double trapped = 0;
   double escaping = 0;

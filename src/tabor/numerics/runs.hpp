@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "tabor/core/parallel.hpp"
@@ -31,11 +32,15 @@ class Runs {
   /// Returns the first run of a row, and for the number of rows the end.
   std::size_t first_of(Index row) const { return first_[static_cast<std::size_t>(row)]; }
 
-  /// True where the run reaches the border of the map.
-  bool is_at_border(std::size_t run) const {
+  /// Borders of the map, as bits.
+  enum Side : std::uint8_t { kLeft = 1, kRight = 2, kTop = 4, kBottom = 8 };
+  /// Returns the borders of the map that the run reaches.
+  std::uint8_t sides(std::size_t run) const {
     const Index row = runs_[run].begin / n_columns_;
-    return row == 0 || row + 1 == n_rows_ || runs_[run].begin == row * n_columns_ ||
-           runs_[run].end == (row + 1) * n_columns_;
+    const int found = (runs_[run].begin == row * n_columns_ ? kLeft : 0) |
+                      (runs_[run].end == (row + 1) * n_columns_ ? kRight : 0) |
+                      (row == 0 ? kTop : 0) | (row + 1 == n_rows_ ? kBottom : 0);
+    return static_cast<std::uint8_t>(found);
   }
 
   /// Calls join(run, other, x, y) for each pair of runs that touch side by side: right and below.

@@ -10,10 +10,10 @@ namespace tabor::contact {
 namespace {
 
 /// Marks the gap with a way out, pixel by pixel.
-template <bool periodic>
+template <elastic::Border border>
 std::vector<std::uint8_t> open_gap(const Mask& contact, const Grid& grid) {
   const bool* touching = contact.data();
-  Regions<periodic> regions(grid, [touching](Index i) { return !touching[i]; });
+  Regions<border> regions(grid, [touching](Index i) { return !touching[i]; });
   const numerics::Runs& runs = regions.runs();
   std::vector<std::uint8_t> is_open(runs.size());
   for (std::size_t run = 0; run < runs.size(); ++run) {
@@ -60,9 +60,27 @@ std::vector<std::int32_t> labels_of(const numerics::Runs& runs, bool periodic,
   return labels;
 }
 
-template <bool periodic>
+/// Copies of each pocket of one image in the map of 2 x 2: a pocket at a seam is one with its
+/// mirror image there.
+std::vector<int> copies_of(const Pockets& pockets, const Grid& grid) {
+  std::vector<int> copies(pockets.size());
+  for (std::size_t k = 0; k < copies.size(); ++k) {
+    bool is_at_x_seam = false;
+    bool is_at_y_seam = false;
+    for (std::size_t j = pockets.first[k]; j < pockets.first[k + 1]; ++j) {
+      const Index x = pockets.pixels[j] % grid.nx;
+      const Index y = pockets.pixels[j] / grid.nx;
+      is_at_x_seam = is_at_x_seam || x == 0 || x + 1 == grid.nx;
+      is_at_y_seam = is_at_y_seam || y == 0 || y + 1 == grid.ny;
+    }
+    copies[k] = (is_at_x_seam ? 1 : 2) * (is_at_y_seam ? 1 : 2);
+  }
+  return copies;
+}
+
+template <elastic::Border border>
 Pockets find(const Mask& contact, const Field& film, const Grid& grid) {
-  std::vector<std::uint8_t> open = open_gap<periodic>(contact, grid);
+  std::vector<std::uint8_t> open = open_gap<border>(contact, grid);
   const bool* touching = contact.data();
   const double* liquid = film.data();
   const numerics::Runs runs(grid.ny, grid.nx,
@@ -74,13 +92,15 @@ Pockets find(const Mask& contact, const Field& film, const Grid& grid) {
       regions[run].liquid += liquid[i];
     }
   });
-  const std::vector<std::int32_t> of_runs = labels_of(runs, periodic, regions);
+  const std::vector<std::int32_t> of_runs =
+      labels_of(runs, border == elastic::Border::repeats, regions);
   std::vector<std::int32_t> labels(static_cast<std::size_t>(grid.size()), kNoPocket);
   for_each(runs.size(), [&](std::size_t run) {
     std::fill(labels.begin() + runs[run].begin, labels.begin() + runs[run].end, of_runs[run]);
   });
   Pockets pockets = pockets_of(std::move(labels), contact, film);
   pockets.open = std::move(open);
+  if (border == elastic::Border::mirrors) pockets.copies = copies_of(pockets, grid);
   return pockets;
 }
 
@@ -94,6 +114,7 @@ Pockets pockets_of(std::vector<std::int32_t> labels, const Mask& contact, const 
           : static_cast<std::size_t>(*std::max_element(labels.begin(), labels.end()) + 1);
   pockets.first.assign(n_labels + 1, 0);
   pockets.volume.assign(n_labels, 0);
+  pockets.copies.assign(n_labels, 1);
   pockets.open.assign(labels.size(), 0);
   for (std::size_t i = 0; i < labels.size(); ++i) {
     if (labels[i] == kNoPocket) {
@@ -116,8 +137,12 @@ Pockets pockets_of(std::vector<std::int32_t> labels, const Mask& contact, const 
   return pockets;
 }
 
-Pockets find_pockets(const Mask& contact, const Field& film, const Grid& grid, bool periodic) {
-  return periodic ? find<true>(contact, film, grid) : find<false>(contact, film, grid);
+Pockets find_pockets(const Mask& contact, const Field& film, const Grid& grid,
+                     elastic::Border border) {
+  using elastic::Border;
+  if (border == Border::repeats) return find<Border::repeats>(contact, film, grid);
+  return border == Border::mirrors ? find<Border::mirrors>(contact, film, grid)
+                                   : find<Border::ends>(contact, film, grid);
 }
 
 }  // namespace tabor::contact

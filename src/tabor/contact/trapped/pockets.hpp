@@ -5,6 +5,7 @@
 
 #include "tabor/core/loops.hpp"
 #include "tabor/core/types.hpp"
+#include "tabor/elastic/border.hpp"
 
 // Finds the closed pockets of a contact that hold liquid.
 namespace tabor::contact {
@@ -19,6 +20,7 @@ struct Pockets {
   std::vector<std::int32_t> of;    ///< pocket of each pixel of the map, or kNoPocket
   std::vector<std::uint8_t> open;  ///< of each pixel of the map: gap with a way out
   double open_volume = 0;          ///< liquid that has a way out: sum of film [m]
+  std::vector<int> copies;         ///< of a pocket in the whole map, of which this may be one image
 
   std::size_t size() const { return volume.size(); }
   std::size_t n_pixels(std::size_t pocket) const { return first[pocket + 1] - first[pocket]; }
@@ -30,8 +32,9 @@ Pockets pockets_of(std::vector<std::int32_t> labels, const Mask& contact, const 
 
 /// Finds the pockets of a contact. Regions are connected by their four neighbours, of pixels
 /// without contact or with liquid; those in which gap reaches the border of the map, or runs
-/// through a periodic cell, are open. The others with liquid are pockets: wet contact belongs to
-/// its pocket, too. `film` [m], shape (ny, nx).
-Pockets find_pockets(const Mask& contact, const Field& film, const Grid& grid, bool periodic);
+/// through a cell that repeats, are open. The others with liquid are pockets: wet contact belongs
+/// to its pocket, too. `film` [m], shape (ny, nx).
+Pockets find_pockets(const Mask& contact, const Field& film, const Grid& grid,
+                     elastic::Border border);
 
 }  // namespace tabor::contact

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "tabor/core/types.hpp"
+#include "tabor/elastic/border.hpp"
 #include "tabor/numerics/disjoint_sets.hpp"
 #include "tabor/numerics/runs.hpp"
 
@@ -22,20 +23,21 @@ struct Cells {
 
 /// Regions of pixels connected by their four neighbours, known by their first runs. A region is
 /// open where it reaches the border of the map; in a periodic cell there is no border: there it
-/// must connect a point with its own periodic image. Sets have offsets in a periodic cell: two
+/// must connect a point with its own periodic image, and on one of the mirror images of such a cell
+/// it must reach opposite borders. Sets have offsets in a periodic cell: two
 /// paths to one pixel that differ by whole cells show that a region runs through the cell (Newman &
 /// Ziff 2001, doi:10.1103/PhysRevE.64.016706).
-template <bool periodic>
+template <elastic::Border border>
 class Regions {
  public:
   /// belongs(pixel): the pixel is in a region.
   template <typename Belongs>
   Regions(const Grid& grid, const Belongs& belongs)
-      : runs_(grid.ny, grid.nx, belongs), sets_(runs_.size()), open_(runs_.size(), 0) {
-    if constexpr (!periodic) {
-      for (std::size_t run = 0; run < runs_.size(); ++run) open_[run] = runs_.is_at_border(run);
+      : runs_(grid.ny, grid.nx, belongs), sets_(runs_.size()), sides_(runs_.size(), 0) {
+    if constexpr (!repeats) {
+      for (std::size_t run = 0; run < runs_.size(); ++run) sides_[run] = runs_.sides(run);
     }
-    runs_.join_neighbours(periodic,
+    runs_.join_neighbours(repeats,
                           [this](std::size_t a, std::size_t b, int x, int y) { join(a, b, x, y); });
   }
 
@@ -44,24 +46,33 @@ class Regions {
   std::size_t root(std::size_t run) {
     return static_cast<std::size_t>(sets_.root(static_cast<std::int32_t>(run)));
   }
-  bool is_open(std::size_t root_run) const { return open_[root_run] != 0; }
+  bool is_open(std::size_t root_run) const {
+    const std::uint8_t sides = sides_[root_run];
+    if constexpr (border == elastic::Border::ends) return sides != 0;
+    return (sides & kAcross) == kAcross || (sides & kDown) == kDown;
+  }
 
  private:
-  using Offset = std::conditional_t<periodic, Cells, numerics::NoOffset>;
+  static constexpr bool repeats = border == elastic::Border::repeats;
+  static constexpr int kAcross = numerics::Runs::kLeft | numerics::Runs::kRight;
+  static constexpr int kDown = numerics::Runs::kTop | numerics::Runs::kBottom;
+  using Offset = std::conditional_t<repeats, Cells, numerics::NoOffset>;
 
   void join(std::size_t a, std::size_t b, int x, int y) {
-    const bool open = is_open(root(a)) || is_open(root(b));
+    const int sides = sides_[root(a)] | sides_[root(b)];
     Offset cells{};
-    if constexpr (periodic) cells = {x, y};
+    if constexpr (repeats) cells = {x, y};
     const auto joined =
         sets_.join(static_cast<std::int32_t>(a), static_cast<std::int32_t>(b), cells);
     const bool runs_through = joined.were_one && !(joined.difference == Offset{});
-    open_[static_cast<std::size_t>(joined.root)] = open || runs_through;
+    sides_[static_cast<std::size_t>(joined.root)] =
+        static_cast<std::uint8_t>(runs_through ? kAcross : sides);
   }
 
   numerics::Runs runs_;
   numerics::DisjointSets<std::int32_t, Offset> sets_;
-  std::vector<std::uint8_t> open_;  // of root runs: there is a way out
+  std::vector<std::uint8_t> sides_;  // that regions reach, by root run; opposite ones if one runs
+                                     // through the cell
 };
 
 }  // namespace tabor::contact

@@ -4,14 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 #include <variant>
 
+#include "tabor/contact/images.hpp"
 #include "tabor/contact/trapped/in_pockets.hpp"
 #include "tabor/contact/trapped/seals.hpp"
 #include "tabor/contact/trapped/trapped_solver.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/core/loops.hpp"
+#include "tabor/core/mirror_images.hpp"
 #include "tabor/core/units.hpp"
 
 namespace tabor::contact {
@@ -102,20 +105,20 @@ LiquidSummary summary_of(const SealedPockets& liquid, SealedState& state, const 
   const Pockets& pockets = liquid.pockets;
   LiquidSummary summary;
   empty_closed_pockets(pockets, state, summary);
-  summary.n_pockets = static_cast<Index>(pockets.size());
   double carried = 0;
   for (std::size_t k = 0; k < pockets.size(); ++k) {
     const double level = state.levels[k];
     const double volume = pockets.volume[k];
+    summary.n_pockets += pockets.copies[k];
     summary.pocket_volume += volume;
     summary.max_pressure = std::max(summary.max_pressure, level);
     if (!(level > 0)) continue;
-    ++summary.n_squeezed;
+    summary.n_squeezed += pockets.copies[k];
     for (std::size_t j = pockets.first[k]; j < pockets.first[k + 1]; ++j) {
       if (at_level(state.contact.pressure.data()[pockets.pixels[j]], level)) carried += level;
     }
     if (level < (1 - kAboveSeal) * liquid.seals[k]) continue;
-    ++summary.n_at_seal;
+    summary.n_at_seal += pockets.copies[k];
     const double left = gap_over(pockets, k, state.contact.gap) / (1 - level / liquid.bulk_modulus);
     summary.leaked_volume += std::max(volume - left, 0.0);
   }
@@ -128,6 +131,30 @@ LiquidSummary summary_of(const SealedPockets& liquid, SealedState& state, const 
   summary.leaked_volume *= grid.pixel_area();
   summary.open_volume = pockets.open_volume * grid.pixel_area();
   return summary;
+}
+
+/// Solves on the first of 2 x 2 mirror images, if everything is made of them; else returns nothing.
+std::optional<TrappedState> solve_on_image(elastic::ElasticOperator& elasticity,
+                                           const Problem& problem, const GapLiquid& liquid,
+                                           const State& dry, const Observer& observer) {
+  elastic::ElasticOperator* const of_image = elasticity.of_image();
+  if (of_image == nullptr || !liquid.periodic || !consists_of_images(liquid.film, 0)) return {};
+  const std::optional<State> dry_image = state_of_image(dry);
+  const std::optional<Problem> image = dry_image ? problem_of_image(problem) : std::nullopt;
+  if (!image) return {};
+  const Field film = first_image(liquid.film);
+  const Pockets pockets =
+      find_pockets(contact_mask(*dry_image), film, of_image->grid(), elastic::Border::mirrors);
+  const GapLiquid liquid_of_image{film, liquid.bulk_modulus, false};  // nothing crosses a seam
+  TrappedState found =
+      solve_in_pockets(*of_image, *image, pockets, liquid_of_image, *dry_image, observer);
+  found.contact = with_images(std::move(found.contact));
+  found.liquid_pressure = mirror_images(found.liquid_pressure);
+  constexpr double n_images = 4;
+  found.liquid.pocket_volume *= n_images;
+  found.liquid.open_volume *= n_images;
+  found.liquid.leaked_volume *= n_images;
+  return found;
 }
 
 Field map_of(const Pockets& pockets, const std::vector<double>& levels, const Grid& grid) {
@@ -186,8 +213,12 @@ TrappedState solve_in_pockets(elastic::ElasticOperator& elasticity, const Proble
 TrappedState solve_trapped(elastic::ElasticOperator& elasticity, const Problem& problem,
                            const GapLiquid& liquid, const State& dry, const Observer& observer) {
   check(problem, liquid, dry);
+  if (auto of_image = solve_on_image(elasticity, problem, liquid, dry, observer)) {
+    return *std::move(of_image);
+  }
   const Pockets pockets =
-      find_pockets(contact_mask(dry), liquid.film, elasticity.grid(), liquid.periodic);
+      find_pockets(contact_mask(dry), liquid.film, elasticity.grid(),
+                   liquid.periodic ? elastic::Border::repeats : elastic::Border::ends);
   return solve_in_pockets(elasticity, problem, pockets, liquid, dry, observer);
 }
 
