@@ -32,7 +32,7 @@ class ElasticOperator {
   /// false where the operator has no such inverse (free half-space).
   virtual bool apply_inverse(const Field& displacement, Field& pressure) = 0;
 
-  virtual Border border() const = 0;
+  virtual Border border() const = 0;  ///< what lies beyond the map
   /// True if a uniform pressure displaces nothing: the mean mode of a half-space loaded everywhere
   /// is dropped.
   bool drops_mean() const { return border() != Border::ends; }

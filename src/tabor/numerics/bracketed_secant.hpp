@@ -6,9 +6,9 @@ namespace tabor::numerics {
 
 /// Finds the zero of an increasing function that is costly and a little noisy, with no bracket
 /// known at first: the secant through the last two places; once values of both signs are known,
-/// bisection wherever the secant leads out of their bracket or does not narrow it. Until then, steps
-/// double where the value falls by less than half, so that a place where the function is flat is
-/// left.
+/// bisection wherever the secant leads out of their bracket or does not narrow it. Until then,
+/// steps double where the value falls by less than half, so that a place where the function is flat
+/// is left.
 class BracketedSecant {
  public:
   /// slope: a guess of the function's, > 0; longest_step: of one step before both signs are known.
