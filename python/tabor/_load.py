@@ -108,6 +108,8 @@ def load(file: File) -> Any:
         try:
             opened = h5py.File(path, "r")
         except OSError as error:
+            if not h5py.is_hdf5(path):
+                raise InputError(f"{name}: no result file, which is HDF5 or JSON; tabor.read reads scans, tabor.Study a study file") from error
             raise InputError(f"{name}: no result file: {error}") from error
         with opened:
             if str(plain(opened.attrs.get("format", ""))) != "tabor":

@@ -44,6 +44,17 @@ TEST(BoundaryFilm, IsNoStrongerThanTheSolidsAndSaidOnce) {
   EXPECT_FALSE(objection(FrictionSettings{.shear_strength = 70e6}, same));
 }
 
+TEST(ShearStrength, IsMissedOnlyWhereTheLibraryHasNone) {
+  const FrictionSettings none{.shear_strength = 0};
+  const auto said = [&](std::string_view material) {
+    const auto found = objection(none, same, material);
+    return found ? found->expected + found->remedy : std::string();
+  };
+  EXPECT_THAT(said("glass"), testing::HasSubstr("no shear strength in the library"));
+  EXPECT_THAT(said("aluminium-6016"), testing::HasSubstr("more than zero"));
+  EXPECT_THAT(said(""), testing::HasSubstr("more than zero"));
+}
+
 TEST(Edges, SayWhatSurroundsTheScanUnlessTheBoundaryDoes) {
   using topography::Edges;
   ContactSettings settings;

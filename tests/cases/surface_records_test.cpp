@@ -9,6 +9,7 @@
 #include "tabor/cases/surface_summary.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/spectral/fft.hpp"
+#include "tabor/topography/geometry.hpp"
 
 namespace tabor::cases::test {
 namespace {
@@ -80,6 +81,25 @@ TEST(SurfaceParameters, OfAWave) {
   ASSERT_NE(record.find("Sq"), nullptr);
   EXPECT_NEAR(record.find("Sq")->value, kAmplitude / std::sqrt(2), 1e-3 * kAmplitude);
   EXPECT_EQ(record.find("Sqq"), nullptr);
+}
+
+/// Mirror images add no peaks, and no waves that are longer.
+TEST(SurfaceParameters, OfACutOutAreThoseOfTheScan) {
+  topography::Topography scan = wave();
+  scan.height(7, 9) = 3 * kAmplitude;
+  scan.periodic = false;
+  const topography::Topography cut = topography::mirror(scan);
+  const auto alone = parameters_of(scan);
+  const auto found = parameters_of(cut);
+  EXPECT_EQ(found.valid_points, alone.valid_points);
+  ASSERT_EQ(found.parameters.size(), alone.parameters.size());
+  for (std::size_t i = 0; i < alone.parameters.size(); ++i) {
+    EXPECT_EQ(found.parameters[i].symbol, alone.parameters[i].symbol);
+    if (!std::isnan(alone.parameters[i].value)) {
+      EXPECT_EQ(found.parameters[i].value, alone.parameters[i].value) << found.parameters[i].symbol;
+    }
+  }
+  EXPECT_EQ(spectra_of(cut, {}).trusted.longest, spectra_of(scan, {}).trusted.longest);
 }
 
 TEST(SurfaceParameters, OfAGroupLeaveFailuresOut) {

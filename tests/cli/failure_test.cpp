@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include <filesystem>
 #include <map>
 #include <sstream>
 
@@ -172,6 +173,11 @@ TEST_F(JsonErrors, OfResultsThatCannotBeWritten) {
   expect_error_object({"generate", "edt", "-o", nowhere}, 5);
   expect_error_object({"sweep", study_, "-o", scan_}, 5);
   expect_error_object({"report", scan_, "-o", scan_}, 5);
+}
+
+TEST_F(JsonErrors, OfAPageNamedAsAFile) {
+  expect_error_object({"report", scan_, "-o", "page.html"}, 2);
+  EXPECT_FALSE(std::filesystem::exists("page.html"));
 }
 
 TEST_F(JsonErrors, OfRunsThatWereInterrupted) {

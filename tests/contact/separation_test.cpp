@@ -258,6 +258,12 @@ TEST(SolveForce, RejectsASurfaceThatRepeats) {
   }
 }
 
+TEST(SolveForce, NamesTheForceUnderWhichAllSaturates) {
+  const Field height = wave(32, 0.01, true);  // on a unit square
+  EXPECT_THAT(rejection([&] { solve_under(height, contact::Force{2.0}, 0.5, 1e-6, false); }),
+              AllOf(HasSubstr("<force>: got 2 N"), HasSubstr("less than 500 mN")));
+}
+
 TEST(SolveContact, StartsFromAGivenPressure) {
   const Field height = self_affine(128, 0.8, 1, 32, 1);
   const auto elasticity = elastic::make_periodic(square(128), 1.0);

@@ -12,6 +12,7 @@ from synthetic_single import write_single
 from synthetic_study import Recipe
 from synthetic_tables import DOSES, average_curves, density_curves
 from tabor.report import areas, build, chart, page, page_single, page_study, style, units
+from tabor.report import density_curves as density_curves_of_page
 from tabor.report.figures import density_friction, single_curves
 
 NAME = "friction_against_density"
@@ -120,6 +121,11 @@ class Answers(StudyCase):
         html = page.render(source, [], "x")
         self.assertIn('<table class="places">', html)
         self.assertNotIn("full from", html[html.index('id="answers"') : html.index('class="places"')])
+
+    def test_a_plateau_on_which_hardly_any_contact_is_wet_is_dry(self):
+        places = [{"place": place, "lubricated_share": share} for place, share in (("plateau", 0.002), ("plateau", 0.02), ("beyond", 0.002), ("", 0.2))]
+        self.assertEqual([density_curves_of_page._place(place) for place in places],
+                         ["dry (0.2 %)", "plateau (2 %)", "beyond (0.2 %)", "no plateau (20 %)"])
 
     def test_many_pressures_and_rows_are_cut_and_counted(self):
         pressures = tuple(1e6 * (place + 1) for place in range(12))

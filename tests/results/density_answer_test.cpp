@@ -50,6 +50,7 @@ TEST(DensityAnswer, SaysWhatIsThereWhereACurveHasNoEdge) {
   flat.plateau = cases::Plateau{1e-5, 1e-2, 0.8};
   EXPECT_THAT(sentence_of(flat, {}), HasSubstr("full at 0.01 g/m^2 already"));
   EXPECT_THAT(sentence_of(flat, {}), Not(HasSubstr("reaches the contacts")));
+  EXPECT_THAT(sentence_of(flat, {{1e-4, 0.2}}), HasSubstr("(20 % wet) lies there, where the den"));
   cases::DensityCurve dry = curve();
   dry.plateau->value = 1;
   EXPECT_THAT(
@@ -57,7 +58,11 @@ TEST(DensityAnswer, SaysWhatIsThereWhereACurveHasNoEdge) {
       HasSubstr("hardly any contact is wet up to 1.15 g/m^2; above 1.15 to 1.2 g/m^2 the oil "
                 "level reaches the contacts; 0.1 g/m^2 (0.1 % wet) lies there, where "
                 "friction is nearly that without oil"));
+  EXPECT_EQ(word_of_place(dry, 0.001), "dry");
+  EXPECT_EQ(word_of_place(curve(), 0.2), "plateau");
+  EXPECT_EQ(word_of_place(curve(), 0.35), "beyond");
   dry.plateau.reset();
+  EXPECT_EQ(word_of_place(dry, 0.2), "no plateau");
   EXPECT_EQ(sentence_of(dry, {{9e-4, 0.2}}), "friction changes with the density throughout");
   EXPECT_FALSE(place_of(dry, 0.2));
 }

@@ -45,6 +45,16 @@ cases::CaseSettings along_a_load_path() {
   return path;
 }
 
+/// A surface without relief has no density curve, and a friction all the same.
+TEST(FrictionOf, IsFoundWithoutRelief) {
+  topography::Topography flat = rough();
+  flat.height.setZero();
+  std::vector<double> wet;
+  friction_of(flat, settings(),
+              [&](const FrictionState& state) { wet.push_back(state.friction.lubricated_share); });
+  EXPECT_EQ(wet, std::vector<double>(6, 1.0));
+}
+
 cases::CaseSettings flowing() {
   cases::CaseSettings flow = settings();
   flow.mean_pressures = {7e6};

@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -225,12 +226,60 @@ TEST(Edges, AreSaidOnce) {
     EXPECT_THAT(rejection([&] { check(steps); }), HasSubstr("edges: got"));
   }
   check({"edges=cut", "mirror"});
+  for (const Treatment& steps : {Treatment{"edges=cut", "mirror"}, {"mirror", "mirror"}}) {
+    EXPECT_TRUE(same_bits(apply(steps, noise(kGrid)).height, mirror(noise(kGrid)).height));
+  }
   EXPECT_THAT(rejection([] { check({"edges=tiled"}); }), HasSubstr("did you mean 'tile'"));
   const Topography tile = apply({"edges=tile"}, noise(kGrid));
   EXPECT_THAT(rejection([&] { apply({"edges=end"}, tile); }), HasSubstr("has 'tile'"));
   EXPECT_THAT(rejection([&] { apply({"mirror"}, tile); }), HasSubstr("edges=tile"));
   EXPECT_EQ(edges_of({"level=plane", "edges=cut"}), Edges::cut);
   EXPECT_EQ(edges_of({"level=plane", "mirror"}), std::nullopt);
+}
+
+// Mirror images hide a tilt and rows that jump from the fit, and would double what they hold.
+TEST(Edges, LevelTheScanWhereverItWasCut) {
+  Topography tilted = noise(kGrid);
+  for (Index y = 0; y < kGrid.ny; ++y) {
+    for (Index x = 0; x < kGrid.nx; ++x) {
+      tilted.height(y, x) += 1e-7 * static_cast<double>(3 * x + y * y);
+    }
+  }
+  tilted.height(2, 3) = kHole;
+  for (const std::string form : {"level=plane", "level=poly2", "level=mean", "level=rows"}) {
+    SCOPED_TRACE(form);
+    const Topography before = apply({form, "edges=cut"}, tilted);
+    const Topography after = apply({"edges=cut", form}, tilted);
+    EXPECT_TRUE(same_bits(after.height, before.height));
+    EXPECT_EQ(after.grid.nx, before.grid.nx);
+    EXPECT_EQ(after.tiles, 2);
+    EXPECT_TRUE(repeats(after));
+    EXPECT_THAT(after.history.back(), testing::StartsWith(form));
+  }
+  const auto is_tilt = [](const Warning& warning) { return warning.code == "tilt"; };
+  const Topography cut = apply({"edges=cut"}, tilted);
+  EXPECT_TRUE(std::any_of(cut.warnings.begin(), cut.warnings.end(), is_tilt));
+}
+
+TEST(Edges, AreCutLast) {
+  for (const std::string step : {"crop=0,0,8,8", "trim=2"}) {
+    EXPECT_THAT(rejection([&] { check({"edges=cut", step}); }), HasSubstr("before <edges=cut>"));
+    EXPECT_THAT(rejection([&] { check({"recipe=part", step}); }), HasSubstr("before <edges=cut>"));
+    check({step, "edges=cut"});
+    check({"mirror", step});
+  }
+}
+
+TEST(Edges, KnowTheScanThatImagesContinue) {
+  const Topography scan = noise(kGrid);
+  EXPECT_FALSE(scan_of_images(scan));
+  Topography cut = mirror(scan);
+  ASSERT_TRUE(scan_of_images(cut));
+  EXPECT_TRUE(same_bits(scan_of_images(cut)->height, scan.height));
+  EXPECT_DOUBLE_EQ(scan_of_images(cut)->grid.dx(), scan.grid.dx());
+  EXPECT_FALSE(repeats(*scan_of_images(cut)));
+  cut.height(0, 0) += 1e-6;
+  EXPECT_FALSE(scan_of_images(cut));
 }
 
 TEST(Edges, SayWhichStepsMirror) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "support/rejection.hpp"
 #include "support/rough_recipe.hpp"
 #include "support/sample_surfaces.hpp"
 #include "support/scans.hpp"
@@ -108,6 +109,13 @@ TEST(LevelRows, LeavesSurfacesAloneWhoseRowsDoNotJump) {
   }
   EXPECT_TRUE(same_bits(level_rows(noise({300, 1, 3e-4, 1e-6})).height,
                         noise({300, 1, 3e-4, 1e-6}).height));
+}
+
+TEST(LevelRows, RejectsAColumnWhichItWouldFlatten) {
+  EXPECT_THAT(rejection([] {
+                level_rows(noise({1, 300, 1e-6, 3e-4}));
+              }),
+              HasSubstr("a profile of one column"));
 }
 
 TEST(RowJumps, AreWarnedAboutWithBothSizes) {

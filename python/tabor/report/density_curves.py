@@ -13,6 +13,7 @@ from tabor.report.table import Table
 
 PRESSURE = "mean_pressure_Pa"
 WET = "lubricated_share"
+DRY_SHARE = 0.01  #: so small a wet share of a plateau is none
 EDGES = ("plateau_from_g_per_m2", "plateau_to_g_per_m2", "beyond_plateau_g_per_m2")
 MOST_COLUMNS = 8  # pressures of the table
 MOST_ROWS = 40
@@ -142,7 +143,8 @@ def _end(row):
 
 
 def _place(row):
-    return f"{row['place'] or 'no plateau'} ({units.number(100 * float(row[WET]), 3)} %)"
+    word = "dry" if row["place"] == "plateau" and row[WET] < DRY_SHARE else row["place"]
+    return f"{word or 'no plateau'} ({units.number(100 * float(row[WET]), 3)} %)"
 
 
 def _is_drawable(table, friction):

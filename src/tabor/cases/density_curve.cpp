@@ -97,6 +97,7 @@ WettingDoses wetting_doses(const topography::Topography& surface, const FilmSett
 }
 
 std::vector<double> lubricated_shares(const WettingDoses& doses, const Mask& contact) {
+  if (doses.lubricant_densities.empty()) return {};
   std::vector<double> shares(doses.lubricant_densities.size(), 0);
   double n_touching = 0;
   for (Index p = 0; p < contact.size(); ++p) {

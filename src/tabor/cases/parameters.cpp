@@ -83,7 +83,7 @@ const Parameters<ContactSettings>& contact_parameters() {
           &Settings::saturation_pressure)
           .with_identifying_value([](const Settings& one) { return Cell(one.pressure_cap()); }),
       One({.name = "boundary",
-           .help = "the surface repeats, or stands alone as with --edges end",
+           .help = "the surface repeats, or ends at its borders and stands alone",
            .example = "periodic",
            .study_key = "contact.boundary",
            .absent = "periodic",
@@ -315,7 +315,7 @@ const Parameters<CaseSettings>& case_parameters() {
     Parameters<CaseSettings> list{
         {{.name = "mean_pressure",
           .help = "mean pressure (load over nominal area), a list or a range such as "
-                  "2MPa..15MPa:7 or 1MPa..100MPa:log:5",
+                  "2MPa..15MPa:7 (five values without :7) or 1MPa..100MPa:log:5",
           .example = "2 MPa,7 MPa",
           .dimension = dimension::pressure,
           .bounds = bounds::above_zero,

@@ -177,8 +177,10 @@ std::optional<Objection> objection(const FluidSettings& settings, const ContactS
                             asked));
   }
   if (contact.is_periodic()) return std::nullopt;
-  return objection_to_use("boundary", fmt::format("{}needs a surface that repeats; use {} periodic",
-                                                  asked, spelling("boundary")));
+  return objection_to_use("boundary",
+                          fmt::format("{}needs a surface that repeats; use <edges=tile> or "
+                                      "<edges=cut>",
+                                      asked));
 }
 
 std::optional<Objection> objection_to_trapped(const CaseSettings& all, const Spelling& spelling) {
@@ -209,7 +211,8 @@ std::optional<Objection> objection_to_trapped(const CaseSettings& all, const Spe
 
 std::optional<Objection> objection(const FrictionSettings& settings, const Spelling& spelling,
                                    std::string_view material) {
-  if (settings.shear_strength == 0 && !material.empty()) {
+  const bool is_unknown = !material.empty() && !material::find_solid(material).shear_strength;
+  if (settings.shear_strength == 0 && is_unknown) {
     return objection_to_use("shear_strength",
                             fmt::format("{} has no shear strength in the library; add {}", material,
                                         spelling("shear_strength")));

@@ -6,6 +6,7 @@
 #include "tabor/core/error.hpp"
 #include "tabor/metrology/areal/parameters.hpp"
 #include "tabor/spectral/fft.hpp"
+#include "tabor/topography/geometry.hpp"
 
 namespace tabor::cases {
 
@@ -31,7 +32,9 @@ std::optional<metrology::MeanSpectrum> mean_over(const std::vector<const Spectra
 SpectraRecord spectra_of(const topography::Topography& surface, const SpectraSettings& settings,
                          const Observer& observer) {
   SpectraRecord record;
-  record.trusted = metrology::trusted_range(surface.height, surface.grid, settings.tip_radius);
+  const std::optional<topography::Topography> scan = topography::scan_of_images(surface);
+  const topography::Topography& measured = scan ? *scan : surface;  // images know no longer waves
+  record.trusted = metrology::trusted_range(measured.height, measured.grid, settings.tip_radius);
   record.with_tip = settings.tip_radius.has_value();
   const bool needs_spectra = !settings.autocorrelation && !settings.height_differences;
   if (needs_spectra || topography::count_holes(surface) == 0) {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <set>
 
-#include "tabor/topography/topography.hpp"
+#include "tabor/topography/geometry.hpp"
 
 namespace tabor::cases {
 
@@ -18,9 +18,11 @@ const Parameter* ParametersRecord::find(const std::string& symbol) const {
   return found == parameters.end() ? nullptr : &*found;
 }
 
-ParametersRecord parameters_of(const topography::Topography& surface,
+ParametersRecord parameters_of(const topography::Topography& treated,
                                const metrology::ParameterOptions& options,
                                const Observer& observer) {
+  const std::optional<topography::Topography> scan = topography::scan_of_images(treated);
+  const topography::Topography& surface = scan ? *scan : treated;
   return {.path = surface.source,
           .treatment = surface.history.empty()
                            ? "none"

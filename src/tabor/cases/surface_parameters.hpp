@@ -24,8 +24,9 @@ struct ParametersRecord {
 };
 
 /// Measures a treated surface; throws as metrology::parameters(). The path is that of its source,
-/// the treatment the steps of its history.
-ParametersRecord parameters_of(const topography::Topography& surface,
+/// the treatment the steps of its history. Of a scan that mirror images continue, the scan alone is
+/// measured.
+ParametersRecord parameters_of(const topography::Topography& treated,
                                const metrology::ParameterOptions& options = {},
                                const Observer& observer = {});
 

@@ -31,7 +31,7 @@ constexpr double kRoundingOfBound = 1e-12;
 constexpr double kManyTransforms = 3e8;
 
 void warn_of_edges(const topography::Topography& surface, Warnings& list) {
-  if (topography::repeats(surface)) return;
+  if (topography::repeats(surface) || surface.grid.size() == 1) return;
   list.push_back({"not-periodic",
                   "Opposite edges of this periodic tile do not match; use <edges=cut> for a "
                   "cut-out, <edges=end> for a body"});

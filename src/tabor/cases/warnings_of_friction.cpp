@@ -35,7 +35,7 @@ Warning clamp(const friction::Contact& contact, const friction::Estimate& estima
   const double excess =
       estimate.area_fraction * contact.saturation_pressure / contact.mean_pressure - 1;
   return {"clamp",
-          fmt::format("Dry friction equals tau_y/p_sat: almost all contact has yielded. Edges of "
+          fmt::format("Almost all contact has yielded: dry friction is tau_y/p_sat, and edges of "
                       "contacts add {:.2g} %",
                       100 * excess),
           excess};
@@ -55,7 +55,9 @@ void warn_of_size(const char* which, double friction, Warnings& list) {
 Warnings of_film(const topography::Topography& surface, const deposition::Film& film) {
   Warnings list;
   const std::string filter = low_pass_of(surface);
-  if (!filter.empty() && film.mean_film > 0) {
+  const bool is_idle = std::any_of(surface.warnings.begin(), surface.warnings.end(),
+                                   [](const Warning& one) { return one.code == "filter"; });
+  if (!filter.empty() && !is_idle && film.mean_film > 0) {
     list.push_back(
         {"filtered",
          fmt::format("The filter {} removes small pockets that hold oil, so the wet share is too "
@@ -96,14 +98,14 @@ Warnings of_friction(const friction::Contact& contact, const friction::Estimate&
     list.push_back(
         {"spill-over",
          fmt::format("{} of the oil no longer fits when the surfaces close; the wet share assumes "
-                     "the oil stays where it was deposited",
+                     "that it stays",
                      percent(spill_over_fraction, 2)),
          spill_over_fraction});
   }
   if (contact.lubricated_share > kWetShare && settings.boundary_strength() == 0) {
     list.push_back({"frictionless",
                     fmt::format("{} of the contact is wet and counts as frictionless; "
-                                "<boundary_shear_strength> gives wet contact a friction",
+                                "<boundary_shear_strength> gives it a friction",
                                 percent(contact.lubricated_share)),
                     contact.lubricated_share});
   }

@@ -34,8 +34,7 @@ std::string place_text(const GroupCurve& one, double density) {
         return cases::are_same_density(candidate.lubricant_density, density);
       });
   if (asked == one.asked.end()) return "-";
-  const auto place = results::place_of(one.curve, asked->lubricated_share);
-  return fmt::format("{} ({})", place ? results::kPlaces.of(*place) : "no plateau",
+  return fmt::format("{} ({})", results::word_of_place(one.curve, asked->lubricated_share),
                      percent(asked->lubricated_share));
 }
 
@@ -134,8 +133,9 @@ std::string places_text(const std::vector<GroupCurve>& curves) {
     add_group(group, pressures, table);
   }
   return table.text() +
-         "On the plateau the pockets under the contacts are full; where it ends the oil level "
-         "reaches the contacts. In brackets: wet share of the contact.\n";
+         "On the plateau the pockets under the contacts are full, or hardly any contact is wet "
+         "(dry); where it ends the oil level reaches the contacts. In brackets: wet share of the "
+         "contact.\n";
 }
 
 }  // namespace tabor::cli

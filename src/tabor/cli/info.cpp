@@ -112,7 +112,8 @@ std::string text_of(const Scan& scan, const FileInfo& file, const SurfaceRecord&
   facts.fact("periodic", record.periodic ? "yes" : "no");
   facts.fact("missing", record.missing_pixels == 0
                             ? "none"
-                            : fmt::format("{} pixels ({})", record.missing_pixels,
+                            : fmt::format("{} pixel{} ({})", record.missing_pixels,
+                                          record.missing_pixels == 1 ? "" : "s",
                                           percent(record.missing_fraction())));
   facts.fact("heights", si(record.min, "m") + " to " + si(record.max, "m"));
   facts.fact("rms height", si(record.rms, "m") + " about the mean");

@@ -52,9 +52,11 @@ void add_row(const std::string& name, const HeightDifference& difference, double
 
 void describe(const PowerSpectra& spectra, Facts& facts) {
   facts.fact("convention", std::string(name_of(spectra.convention)));
-  facts.fact("window",
-             std::string(name_of(spectra.window)) +
-                 fmt::format(" (changes the variance {:.3g} times)", spectra.window_gain));
+  std::string window(name_of(spectra.window));
+  if (spectra.window_gain != 1) {
+    window += fmt::format(" (multiplies the variance by {:.3g})", spectra.window_gain);
+  }
+  facts.fact("window", window);
   facts.fact("rms height", si(spectra.rms_height, "m"));
   facts.fact("rms slope", plain(spectra.rms_slope));
 }

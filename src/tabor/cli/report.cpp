@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <stdexcept>
@@ -65,7 +66,16 @@ std::string complaint_of(const std::string& output) {
   throw std::runtime_error("report: " + complaint);
 }
 
+/// A page's name would become that of a folder.
+void check_folder(const std::string& output) {
+  const std::string ending = std::filesystem::path(output).extension().string();
+  if ((ending != ".html" && ending != ".htm") || std::filesystem::is_directory(output)) return;
+  throw UsageError(fmt::format(
+      "--output: got '{}'; expected a folder, in which the page is report.html", output));
+}
+
 int report(const Request& request, Context& context) {
+  if (request.output) check_folder(*request.output);
   const auto may_stop = [observer = context.observer()] {
     report_progress(observer, "draw", std::nan(""));
   };

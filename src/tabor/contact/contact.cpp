@@ -51,6 +51,12 @@ void check_load(const Problem& problem, double mean_pressure) {
     throw InputError("mean pressure", format_si(mean_pressure, "Pa"), "a positive pressure", "");
   }
   const double most = problem.bounds.caps().mean(problem.height.size());
+  if (const auto* force = std::get_if<Force>(&problem.control); force && !(most > mean_pressure)) {
+    throw InputError("<force>", format_si(force->value, "N"),
+                     "less than " + format_si(most * force->value / mean_pressure, "N") +
+                         ", under which all of the surface saturates",
+                     "lower the force or raise the saturation pressure");
+  }
   if (!(most > mean_pressure)) {
     throw InputError("saturation pressure", format_si(most, "Pa"),
                      "more than the mean pressure of " + format_si(mean_pressure, "Pa"),

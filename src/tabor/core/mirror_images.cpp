@@ -14,7 +14,8 @@ bool consists_of_images(const Field& map, double rounding) {
     const Index y_of_image = std::min(y, ny - 1 - y);
     for (Index x = 0; x < nx; ++x) {
       const double of_image = map(y_of_image, std::min(x, nx - 1 - x));
-      n += std::abs(map(y, x) - of_image) <= rounding ? 0 : 1;
+      const bool are_holes = std::isnan(map(y, x)) && std::isnan(of_image);
+      n += are_holes || std::abs(map(y, x) - of_image) <= rounding ? 0 : 1;
     }
     return Eigen::Array<double, 1, 1>(n);
   };

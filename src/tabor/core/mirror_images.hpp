@@ -21,7 +21,8 @@ Map mirror_images(const Map& map) {
   return all;
 }
 
-/// Returns true if a map consists of 2 x 2 mirror images that differ by at most `rounding`.
+/// Returns true if a map consists of 2 x 2 mirror images that differ by at most `rounding`; NaN is
+/// like NaN.
 bool consists_of_images(const Field& map, double rounding);
 
 /// Returns the first quarter of a map, of which the others are mirror images.

@@ -66,7 +66,7 @@ class Deposition {
   Height droplet() const {
     const double quanta = std::nearbyint(dose_.droplet_height / terrain_.quantum);
     if (quanta < 1 || quanta > kNoRim) {
-      throw InputError("droplet height", format_si(dose_.droplet_height, "m"),
+      throw InputError("<droplet_height>", format_si(dose_.droplet_height, "m"),
                        format_si(terrain_.quantum, "m") + " to " +
                            format_si(terrain_.quantum * kNoRim, "m") + " for this range of heights",
                        "");

@@ -33,7 +33,7 @@ void check(const Field& height, const Grid& grid, const Dose& dose) {
     }
   }
   if (!(dose.droplet_height > 0 && std::isfinite(dose.droplet_height))) {
-    throw InputError("droplet height", fmt::format("{} m", dose.droplet_height), "more than zero",
+    throw InputError("<droplet_height>", fmt::format("{} m", dose.droplet_height), "more than zero",
                      "the droplet's volume is this height times the pixel area, e.g. 0.1 um");
   }
 }

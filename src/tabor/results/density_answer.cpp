@@ -13,10 +13,9 @@
 namespace tabor::results {
 namespace {
 
-constexpr double kDry = 0.01;       // so small a wet share is none
 constexpr double kRounding = 1e-9;  // of a density whose unit was changed
 
-bool is_dry(const cases::Plateau& plateau) { return 1 - plateau.value < kDry; }
+bool is_dry(const cases::Plateau& plateau) { return 1 - plateau.value < kDryShare; }
 
 /// The point of the curve that is this density.
 std::size_t point_at(const cases::DensityCurve& curve, double density) {
@@ -55,19 +54,20 @@ std::string list_of(const std::vector<AskedDensity>& asked) {
   return texts.empty() ? last : fmt::format("{} and {}", fmt::join(texts, ", "), last);
 }
 
-std::string place_text(Place place, const cases::Plateau& plateau,
+std::string place_text(Place place, const cases::DensityCurve& curve,
                        const std::vector<AskedDensity>& there) {
   const char* const lie = there.size() == 1 ? "lies" : "lie";
   switch (place) {
     case Place::below:
-      return there.front().lubricant_density < plateau.first
+      return there.front().lubricant_density < curve.plateau->first
                  ? fmt::format("{} below, where fewer pockets are full", lie)
                  : fmt::format("{} less, as single droplets miss pockets",
                                there.size() == 1 ? "wets" : "wet");
     case Place::plateau:
-      return is_dry(plateau)
+      return is_dry(*curve.plateau)
                  ? fmt::format("{} there, where friction is nearly that without oil", lie)
-                 : fmt::format("{} between, where the density hardly matters", lie);
+                 : fmt::format("{} {}, where the density hardly matters", lie,
+                               beside_plateau(curve).beyond ? "between" : "there");
     case Place::beyond:
       return fmt::format("{} beyond, where oil covers more of the contacts", lie);
   }
@@ -121,6 +121,13 @@ std::optional<Place> place_of(const cases::DensityCurve& curve, double lubricate
   return above > 0 ? Place::below : Place::beyond;
 }
 
+std::string word_of_place(const cases::DensityCurve& curve, double lubricated_share) {
+  const std::optional<Place> place = place_of(curve, lubricated_share);
+  if (!place) return "no plateau";
+  return place == Place::plateau && is_dry(*curve.plateau) ? "dry"
+                                                           : std::string(kPlaces.of(*place));
+}
+
 double lubricated_share_at(const cases::DensityCurve& curve, double lubricant_density) {
   const std::vector<double>& all = curve.lubricant_densities;
   const std::vector<double>& shares = curve.lubricated_shares;
@@ -164,7 +171,7 @@ std::string sentence_of(const cases::DensityCurve& curve, const std::vector<Aske
     for (const std::vector<AskedDensity>& alike :
          {std::vector(there.begin(), behind_edge), std::vector(behind_edge, there.end())}) {
       if (alike.empty()) continue;
-      sentence += fmt::format("; {} {}", list_of(alike), place_text(place, *curve.plateau, alike));
+      sentence += fmt::format("; {} {}", list_of(alike), place_text(place, curve, alike));
     }
   }
   return sentence;

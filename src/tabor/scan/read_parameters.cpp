@@ -56,7 +56,7 @@ const Parameters<ReadOptions>& read_parameters() {
            .dimension = dimension::length,
            .placeholder = "LENGTH"},
           &ReadOptions::z_scale),
-      One({.name = "override_unit", .help = "let --pixel and --unit override what the file says"},
+      One({.name = "override_unit", .help = "let pixel and unit replace what the file says"},
           &ReadOptions::override_unit)};
   static const Parameters<ReadOptions> all = grouped(kReadingGroup, table);
   return all;

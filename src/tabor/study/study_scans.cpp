@@ -76,7 +76,8 @@ std::vector<fs::path> find_files(const io::Config& config, const fs::path& folde
   if (fs::exists(fs::symlink_status(exact, unknown))) return {exact};
   std::vector<fs::path> files = matches(folder, name);
   if (files.empty()) {
-    throw InputError(config.place("file") + ": no file '" + name + "' in " + folder.string() +
+    const std::string where = fs::path(name).is_absolute() ? "" : " in " + folder.string();
+    throw InputError(config.place("file") + ": no file '" + name + "'" + where +
                      suggestion(exact.filename().string(), names_beside(exact)));
   }
   return files;

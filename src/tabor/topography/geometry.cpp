@@ -4,6 +4,7 @@
 
 #include "tabor/core/error.hpp"
 #include "tabor/core/mirror_images.hpp"
+#include "tabor/numerics/field_statistics.hpp"
 #include "tabor/topography/edges.hpp"
 #include "tabor/topography/warnings.hpp"
 
@@ -68,14 +69,34 @@ Topography mirror(Topography topography) {
     throw InputError("mirror", fmt::format("a surface with edges={}", kEdges.of(*topography.edges)),
                      "a cut-out of a larger one", "say once what lies beyond the edges");
   }
+  if (topography.edges == Edges::cut) return topography;
   topography.height = mirror_images(topography.height);
   set_spacing(topography.grid, 2 * topography.grid.nx, 2 * topography.grid.ny);
   topography.periodic = true;
   topography.edges = Edges::cut;
-  topography.tiles *= 2;
+  topography.tiles = 2;
   topography.history.push_back(
       fmt::format("mirror: {} x {} pixels, periodic", topography.grid.nx, topography.grid.ny));
   return topography;
+}
+
+std::optional<Topography> scan_of_images(const Topography& topography) {
+  constexpr double rounding = 1e-6;  // of the rms height, as filters leave it
+  if (topography.edges != Edges::cut || topography.tiles != 2 ||
+      !consists_of_images(topography.height, rounding * numerics::rms_height(topography.height))) {
+    return std::nullopt;
+  }
+  Topography scan;
+  scan.grid = grid_of_image(topography.grid);
+  scan.height = first_image(topography.height);
+  scan.source = topography.source;
+  scan.format = topography.format;
+  scan.instrument = topography.instrument;
+  scan.channel = topography.channel;
+  scan.metadata = topography.metadata;
+  scan.history = topography.history;
+  scan.warnings = topography.warnings;
+  return scan;
 }
 
 Topography flip(Topography topography, Axis axis) {

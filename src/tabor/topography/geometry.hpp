@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "tabor/topography/topography.hpp"
 
 // Crops, resamples, mirrors, flips and transposes surfaces, and interpolates between their pixels.
@@ -57,8 +59,13 @@ class Interpolant {
 Field cell_means(const Field& height, double width_x, double width_y);
 
 /// Tiles the surface 2 x 2 with its mirror images: twice the size, continuous across the edges,
-/// periodic. Throws InputError for a surface that is said to repeat or to end at its edges.
+/// periodic. A surface that its mirror images continue already stays as it is. Throws InputError
+/// for a surface that is said to repeat or to end at its edges.
 Topography mirror(Topography topography);
+
+/// Returns the scan that mirror images continue, without what is known of its edges; nothing for
+/// other surfaces.
+std::optional<Topography> scan_of_images(const Topography& topography);
 
 /// Direction of the map.
 enum class Axis { x, y };

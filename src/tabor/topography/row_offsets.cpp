@@ -8,6 +8,7 @@
 #include <numeric>
 #include <utility>
 
+#include "tabor/core/error.hpp"
 #include "tabor/core/rows.hpp"
 #include "tabor/core/units.hpp"
 
@@ -115,6 +116,10 @@ RowJumps row_jumps(const Field& height, Index sample) {
 }
 
 Topography level_rows(Topography topography) {
+  if (topography.grid.nx == 1 && topography.grid.ny > 1) {
+    throw InputError("level", "'rows' for a profile of one column", "rows of several pixels",
+                     "<level=plane> levels a profile");
+  }
   const RowJumps found = row_jumps(topography.height, topography.height.cols());
   if (!found.are_large()) {
     topography.history.push_back("level=rows: rows do not jump (" + describe(found) +

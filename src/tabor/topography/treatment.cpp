@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "tabor/core/error.hpp"
+#include "tabor/core/mirror_images.hpp"
 #include "tabor/core/text.hpp"
 #include "tabor/core/units.hpp"
 #include "tabor/core/watch.hpp"
@@ -40,15 +41,28 @@ struct Step {
                    fmt::format("e.g. {}={}{}", step, known.back(), suggestion(argument, known)));
 }
 
+/// Treats the scan alone where mirror images continue it, and continues it again.
+Topography on_scan(Topography t, const std::function<Topography(Topography)>& treat) {
+  std::optional<Topography> scan = scan_of_images(t);
+  if (!scan) return treat(std::move(t));
+  Topography treated = treat(*std::move(scan));
+  t.height = mirror_images(treated.height);
+  t.history = std::move(treated.history);
+  t.warnings = std::move(treated.warnings);
+  return t;
+}
+
 Action parse_level(const std::string& argument) {
   if (argument == "rows") {
-    return [](Topography t, const Observer&) { return level_rows(std::move(t)); };
+    return [](Topography t, const Observer&) { return on_scan(std::move(t), &level_rows); };
   }
   const auto form = form_from(argument);
   if (!form) {
     reject("level", argument, {"none", "mean", "poly2", "poly3", "poly4", "rows", "plane"});
   }
-  return [form](Topography t, const Observer&) { return level(std::move(t), *form); };
+  return [form](Topography t, const Observer&) {
+    return on_scan(std::move(t), [form](Topography s) { return level(std::move(s), *form); });
+  };
 }
 
 Action parse_fill(const std::string& argument) {
@@ -273,7 +287,8 @@ std::optional<Edges> edges_of(const Treatment& treatment) {
   }
   if (said && said != Edges::cut && mirrors(treatment)) {
     throw InputError("edges", fmt::format("'{}' with mirror", kEdges.of(*said)),
-                     "'cut' with mirror, which is the same", "");
+                     "'cut' with mirror, which says the same",
+                     "leave out either; mirror images repeat");
   }
   return said;
 }
@@ -286,9 +301,28 @@ bool mirrors(const Treatment& treatment) {
   });
 }
 
+namespace {
+
+/// A part of a cut-out is another one: which is meant would be a guess.
+void check_parts(const Treatment& treatment) {
+  bool is_cut = false;
+  for (const std::string& step : expanded(treatment)) {
+    const auto [name, argument] = split_step(step);
+    if (is_cut && (name == "crop" || name == "trim")) {
+      throw InputError(
+          name, "a step after edges=cut", "a place before it",
+          fmt::format("<{}> takes a part of the scan before <edges=cut> continues it", name));
+    }
+    is_cut = is_cut || (name == "edges" && argument == kEdges.of(Edges::cut));
+  }
+}
+
+}  // namespace
+
 void check(const Treatment& treatment) {
   for (const auto& step : treatment) parse_step(step);
   edges_of(treatment);
+  check_parts(treatment);
 }
 
 Topography apply(const Treatment& treatment, Topography topography, const Observer& observer) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 #include <iterator>
+#include <optional>
 #include <string_view>
 
 #include "tabor/core/error.hpp"
@@ -14,6 +15,7 @@
 #include "tabor/core/units.hpp"
 #include "tabor/numerics/field_statistics.hpp"
 #include "tabor/topography/edges.hpp"
+#include "tabor/topography/geometry.hpp"
 #include "tabor/topography/levelling.hpp"
 #include "tabor/topography/row_offsets.hpp"
 #include "tabor/topography/spikes.hpp"
@@ -152,6 +154,10 @@ void warn_of_rows(const Topography& topography, Warnings& list) {
 void warn_of_holes(const Topography& topography, Warnings& list) {
   const Index n_holes = count_holes(topography);
   if (n_holes == 0) return;
+  if (n_holes == topography.grid.size()) {
+    list.push_back({.code = "missing-pixels", .text = "All pixels are missing"});
+    return;
+  }
   list.push_back(
       {.code = "missing-pixels",
        .text = fmt::format(
@@ -235,8 +241,9 @@ Warnings about_heights(const Topography& topography, const Rms& rms) {
   Warnings list;
   if (is_profile(topography.grid)) {
     list.push_back({.code = "profile",
-                    .text = "The scan is a profile of one row, so areal "
-                            "results do not apply"});
+                    .text = fmt::format("The scan is a profile of one {}, so areal results do not "
+                                        "apply",
+                                        topography.grid.ny == 1 ? "row" : "column")});
   } else {
     warn_of_pixels(topography.grid, list);
     warn_of_rows(topography, list);
@@ -298,7 +305,9 @@ void renew_spikes(Topography& topography) {
 void renew_warnings(Topography& topography) {
   look_at_edges(topography);
   std::erase_if(topography.warnings, is_of_heights);
-  for (Warning& warning : about_heights(topography, rms_of(topography.height))) {
+  const std::optional<Topography> scan = scan_of_images(topography);
+  const Topography& measured = scan ? *scan : topography;  // images hide its tilt and rows
+  for (Warning& warning : about_heights(measured, rms_of(measured.height))) {
     topography.warnings.push_back(std::move(warning));
   }
 }

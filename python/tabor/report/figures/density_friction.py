@@ -189,7 +189,7 @@ def _caption(curves, error_name, n_left_out):
     parts = [
         "Lubricated friction coefficient μ (dimensionless) against the areal density of the lubricant, at rest, one "
         "curve for each mean pressure P, for droplets that vanish (model limit). From left to right: friction falls "
-        "while the oil fills the pockets under the contacts; on the plateau they are full and more oil gathers in the "
+        "while the oil fills the pockets under the contacts; on the plateau they are full, or hardly any contact has one, and more oil gathers in the "
         "valleys, so that the density hardly matters; where it ends the oil level reaches the contacts, and beyond it "
         "covers more of them. Dashed: the same contacts dry. Dotted lines and dots: the densities that were asked "
         "for and the friction in the tables, of the droplets that were asked for. "
