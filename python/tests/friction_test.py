@@ -151,7 +151,7 @@ def test_a_flowing_film_needs_a_speed_that_is_none_below_zero(rough, steel):
     with pytest.raises(ValueError, match="viscosity"):
         tb.Lubricant("0.1")
     free = tb.contact(rough, 5e7, steel, boundary="free")
-    with pytest.raises(ValueError, match="use edges='tile' or edges='cut'"):
+    with pytest.raises(ValueError, match="use treat.'edges=tile'. or treat.'edges=cut'."):
         tb.fluid_film(free, film, tb.Lubricant("0.1 Pa s"), speed=1)
 
 
