@@ -37,7 +37,7 @@ struct Two {
 
 /// Cosine transforms from the complex transform of the reordered values; turn: that of k.
 template <typename Real>
-Two<Real> to_cosines(Two<Real> z, std::complex<Real> turn) {
+Two<Real> to_cosines(const Two<Real>& z, std::complex<Real> turn) {
   const std::complex<Real> u = times(turn, z.low);
   const std::complex<Real> w = times(std::conj(turn), z.high);
   const std::complex<Real> difference = u - w;
@@ -46,68 +46,62 @@ Two<Real> to_cosines(Two<Real> z, std::complex<Real> turn) {
 
 /// Inverse of to_cosines().
 template <typename Real>
-Two<Real> from_cosines(Two<Real> c, std::complex<Real> turn) {
+Two<Real> from_cosines(const Two<Real>& c, std::complex<Real> turn) {
   const std::complex<Real> turned(-c.high.imag(), c.high.real());
   return {times(std::conj(turn), c.low - turned), times(turn, c.low + turned)};
 }
 
-/// Calls change(k, n - k, turn) for every pair of frequencies but 0, and middle(n / 2) where n is
-/// even.
+/// Replaces the values at each pair of frequencies k and n - k by change(values, turn, k), and that
+/// at n / 2, where n is even, by middle(value). The value at 0 stays.
 template <typename Real, typename Change, typename Middle>
-void for_each_pair(Index n, const std::vector<std::complex<Real>>& turns, const Change& change,
-                   const Middle& middle) {
-  for (Index k = 1; k < n - k; ++k) change(k, n - k, turns[static_cast<std::size_t>(k)]);
-  if (n % 2 == 0 && n > 0) middle(n / 2);
+void change_pairs(const std::vector<std::complex<Real>>& turns, Index n, std::complex<Real>* z,
+                  const Change& change, const Middle& middle) {
+  for (Index k = 1; k < n - k; ++k) {
+    const Two<Real> changed =
+        change(Two<Real>{z[k], z[n - k]}, turns[static_cast<std::size_t>(k)], k);
+    z[k] = changed.low;
+    z[n - k] = changed.high;
+  }
+  if (n % 2 == 0) z[n / 2] = middle(z[n / 2]);
 }
 
 template <typename Real>
-inline constexpr Real kRootHalf = static_cast<Real>(1 / std::numbers::sqrt2);
-template <typename Real>
-inline constexpr Real kRootTwo = static_cast<Real>(std::numbers::sqrt2);
-
-template <typename Real>
-void to_cosines(Index n, const std::vector<std::complex<Real>>& turns, std::complex<Real>* z) {
-  for_each_pair(
-      n, turns,
-      [z](Index k, Index mirror, std::complex<Real> turn) {
-        const Two<Real> c = to_cosines<Real>({z[k], z[mirror]}, turn);
-        z[k] = c.low;
-        z[mirror] = c.high;
+void to_cosines(const std::vector<std::complex<Real>>& turns, Index n, std::complex<Real>* z) {
+  change_pairs(
+      turns, n, z,
+      [](const Two<Real>& values, std::complex<Real> turn, Index) {
+        return to_cosines(values, turn);
       },
-      [z](Index k) { z[k] *= kRootHalf<Real>; });
+      [](std::complex<Real> value) { return value * static_cast<Real>(1 / std::numbers::sqrt2); });
 }
 
 template <typename Real>
-void from_cosines(Index n, const std::vector<std::complex<Real>>& turns, std::complex<Real>* z) {
-  for_each_pair(
-      n, turns,
-      [z](Index k, Index mirror, std::complex<Real> turn) {
-        const Two<Real> found = from_cosines<Real>({z[k], z[mirror]}, turn);
-        z[k] = found.low;
-        z[mirror] = found.high;
+void from_cosines(const std::vector<std::complex<Real>>& turns, Index n, std::complex<Real>* z) {
+  change_pairs(
+      turns, n, z,
+      [](const Two<Real>& values, std::complex<Real> turn, Index) {
+        return from_cosines(values, turn);
       },
-      [z](Index k) { z[k] *= kRootTwo<Real>; });
+      [](std::complex<Real> value) { return value * static_cast<Real>(std::numbers::sqrt2); });
 }
 
 /// Goes to cosines, multiplies the real parts by first[k] and the imaginary ones by second[k], and
 /// back.
 template <typename Real>
-void multiply_cosines(Index n, const std::vector<std::complex<Real>>& turns, const Real* first,
+void multiply_cosines(const std::vector<std::complex<Real>>& turns, Index n, const Real* first,
                       const Real* second, std::complex<Real>* z) {
   const auto times_factors = [=](std::complex<Real> value, Index k) {
     return std::complex<Real>(value.real() * first[k], value.imag() * second[k]);
   };
   z[0] = times_factors(z[0], 0);
-  for_each_pair(
-      n, turns,
-      [=](Index k, Index mirror, std::complex<Real> turn) {
-        Two<Real> c = to_cosines<Real>({z[k], z[mirror]}, turn);
-        c = {times_factors(c.low, k), times_factors(c.high, mirror)};
-        const Two<Real> found = from_cosines<Real>(c, turn);
-        z[k] = found.low;
-        z[mirror] = found.high;
+  change_pairs(
+      turns, n, z,
+      [=](const Two<Real>& values, std::complex<Real> turn, Index k) {
+        const Two<Real> cosines = to_cosines(values, turn);
+        return from_cosines({times_factors(cosines.low, k), times_factors(cosines.high, n - k)},
+                            turn);
       },
-      [=](Index k) { z[k] = times_factors(z[k], k); });
+      [=](std::complex<Real> value) { return times_factors(value, n / 2); });
 }
 
 /// Puts two rows into the order of the transform, as real and imaginary part: values at even places
@@ -175,7 +169,7 @@ void MirroredConvolution<Real>::rows_forward(const Real* map) {
       block.forward(0);
       block.unpack(0);
       for (Index i = 0; i < count; ++i) {
-        to_cosines(nx_, turns_x_, block.column(i));
+        to_cosines(turns_x_, nx_, block.column(i));
         std::copy_n(block.column(i), nx_, spectrum_.data() + (pair + i) * nx_);
       }
     }
@@ -233,7 +227,7 @@ void MirroredConvolution<Real>::columns(const Multiplier<Real>& multiplier) {
         const Index kx = 2 * (begin + i);
         multiplier(kx, {factors.data(), n});
         if (kx + 1 < nx_) multiplier(kx + 1, {factors.data() + n, n});
-        multiply_cosines(ny_, turns_y_, factors.data(), factors.data() + n, block.column(i));
+        multiply_cosines(turns_y_, ny_, factors.data(), factors.data() + n, block.column(i));
       }
       block.pack(bundle);
       block.inverse(bundle);
@@ -254,7 +248,7 @@ void MirroredConvolution<Real>::rows_inverse(Real* map) {
       const Index count = std::min(together, end - pair);
       for (Index i = 0; i < count; ++i) {
         std::copy_n(spectrum_.data() + (pair + i) * nx_, nx_, block.column(i));
-        from_cosines(nx_, turns_x_, block.column(i));
+        from_cosines(turns_x_, nx_, block.column(i));
       }
       block.pack(0);
       block.inverse(0);
