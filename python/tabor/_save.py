@@ -63,7 +63,8 @@ def _save_frictions(target: _tabor.Target, surface: Surface, results: Sequence[F
 
 def _records(results: Any) -> Sequence[Any]:
     """Records of one kind."""
-    expected = "a Contact, Film, Friction or FluidFilm, or a list of one kind"
+    expected = ("a Contact, Film, Friction or FluidFilm, a list of one kind of these, "
+                "or a Slide, Combination, Solution, Sweep or Parameters")
     if isinstance(results, Surface):
         raise wrong("results", results, f"{expected}; Surface.save writes a surface")
     if not isinstance(results, (Record, Iterable)) or isinstance(results, (str, bytes, Mapping)):

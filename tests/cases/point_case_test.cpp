@@ -43,6 +43,14 @@ TEST(PointCase, HasTheMoesGroupsThatItIsGiven) {
   EXPECT_TRUE(has_fact(result, "smallest film"));
 }
 
+TEST(PointCase, IsIsoviscousWithoutAGroupOfViscosity) {
+  const PointProblem problem =
+      read_point(io::Config::parse("[groups]\nM = 50\nL = 0\n[grid]\nnodes = 33\n", "case.toml"));
+  EXPECT_EQ(film_groups_of(problem).moes_viscosity(), 0);
+  EXPECT_NEAR(film_groups_of(problem).moes_load(), 50, 1e-12);
+  EXPECT_EQ(material::law_of(problem.lubricant.viscosity), material::ViscosityLaw::constant);
+}
+
 TEST(PointCase, HasTheFilmOfItsProblem) {
   const PointResult film = solve_point(read_point(config()));
   const double centre = film.film(film.film.rows() / 2, (film.film.cols() * 3) / 4);

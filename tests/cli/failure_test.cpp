@@ -46,6 +46,12 @@ TEST(ErrorObject, GivesBackThePartsOfAnInputError) {
   }
 }
 
+TEST(ErrorObject, IsNotPartedInBrackets) {
+  const io::Json error = error_json("--output OUT is missing (the file; its name); see --help");
+  EXPECT_EQ(error.at("what"), "--output OUT is missing (the file; its name)");
+  EXPECT_EQ(error.at("remedy"), "see --help");
+}
+
 TEST(ErrorObject, OfALineWithoutPartsHoldsAllOfIt) {
   const io::Json error = error_json("x.h5: No such file; see 'tabor --help'");
   EXPECT_EQ(error.at("what"), "x.h5: No such file");

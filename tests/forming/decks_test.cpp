@@ -169,6 +169,15 @@ TEST(AbaqusDeck, OfOneDensityHasNoFieldVariable) {
   EXPECT_EQ(test::parse_abaqus(deck).size(), kPressures.size());
 }
 
+TEST(Decks, SayWhichMeansAreOverFewerScans) {
+  FrictionTable table = made_table(kPressures, kDensities, kSpeeds, some_law);
+  table.left_out.push_back(
+      {.at = {5e6, 0, 0.1}, .code = "failed", .scans = {"x_bad.gsf"}, .whole = false});
+  const std::string deck = abaqus_deck(table, unit_system("mm,s,t"));
+  EXPECT_THAT(deck, HasSubstr("over fewer scans: failed 1; none left"));
+  EXPECT_THAT(deck, HasSubstr("mean without x_bad.gsf"));
+}
+
 TEST(Decks, OfATableWithGapsHaveTheRest) {
   FrictionTable table = made_table(kPressures, kDensities, kSpeeds, some_law);
   table.entries.erase(table.entries.begin() + 4);

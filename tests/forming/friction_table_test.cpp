@@ -55,13 +55,14 @@ TEST(RequireTwoPressures, OfEachDensity) {
   EXPECT_THROW(require_two_pressures(table), InputError);
 }
 
-TEST(ReasonsOf, CountNumbersAndScans) {
+TEST(ReasonsOf, CountMissingNumbersAndThoseOverFewerScans) {
   FrictionTable table;
   table.left_out = {{.code = "flood", .scans = {"a", "b"}},
                     {.code = "failed", .scans = {"a", "b"}, .whole = false},
                     {.code = "flood", .scans = {"a"}}};
-  EXPECT_EQ(reasons_of(table), "flood 2, failed 2");
-  EXPECT_EQ(n_left_out(table), 4u);
+  EXPECT_EQ(reasons_of(table), "flood 2");
+  EXPECT_EQ(reasons_for_fewer_scans(table), "failed 1");
+  EXPECT_EQ(n_left_out(table), 2u);
 }
 
 }  // namespace

@@ -77,6 +77,7 @@ Warnings one_of_each() {
   tilted.periodic = tilted.edges_match = false;
   for (Index x = 0; x < kGrid.nx; ++x) tilted.height.col(x) += 1e-3 * double(x);
   add(cases::of_surface(tilted), all);
+  add(topography::apply({"lowpass=hann:1.23456um"}, tilted).warnings, all);
   metrology::PowerSpectra spectra;
   for (auto* fit : {&spectra.x.hurst, &spectra.y.hurst, &spectra.radial.hurst}) {
     *fit = {.hurst = -12.345, .standard_error = 0.1};
@@ -117,8 +118,8 @@ Warnings one_of_each() {
                         .mean_film = 1.23456e-5};
   film.flooded = true;
   film.n_droplets = 1234;
-  film.lost_volume = 0.123456;
-  film.dosed_volume = 1;
+  film.dosed_volume = 1.2345 * film.mean_film * filtered.grid.area();
+  film.lost_volume = 0.123456 * film.dosed_volume;
   add(cases::of_film(filtered, film), all);
   cases::FrictionSettings settings{.shear_strength = 1e9};
   friction::Contact touching{.mean_pressure = 1e7,

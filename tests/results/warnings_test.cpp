@@ -199,6 +199,18 @@ TEST(WarningsOfFilm, TellOfPocketsThatAFilterTookUnlessThereIsNoOil) {
   EXPECT_THAT(codes_of(cases::of_film(surface, films(dose)[0])), Not(Contains("filtered")));
 }
 
+TEST(WarningsOfFilm, TellOfADoseThatTheLastDropletExceeds) {
+  const topography::Topography surface = rough();
+  deposition::Film film{.thickness = Field::Zero(kGrid.ny, kGrid.nx), .mean_film = 3e-7};
+  film.dosed_volume = 1.019 * 3e-7 * surface.grid.area();
+  EXPECT_THAT(codes_of(cases::of_film(surface, film)), Not(Contains("overdosed")));
+  film.dosed_volume = 1.25 * 3e-7 * surface.grid.area();
+  const Warnings found = cases::of_film(surface, film);
+  ASSERT_EQ(codes_of(found), std::vector<std::string>{"overdosed"});
+  EXPECT_NEAR(found[0].weight, 0.25, 1e-12);
+  EXPECT_THAT(found[0].text, HasSubstr("25 % larger than asked"));
+}
+
 TEST(WarningsOfFilm, TellTheShareOfTheOilThatRanOff) {
   deposition::Film film;
   film.thickness = Field::Zero(2, 2);

@@ -29,6 +29,9 @@ TEST(MeanOf, MatchesTheTextbookNumbers) {
 }
 
 TEST(MeanOf, OneValueHasNoError) {
+  const Mean same = mean_of({0.3038, 0.3038, std::nextafter(0.3038, 1)});  // but for rounding
+  EXPECT_EQ(same.standard_deviation, 0);
+  EXPECT_EQ(same.standard_error, 0);
   EXPECT_EQ(mean_of({3}).mean, 3);
   EXPECT_TRUE(std::isnan(mean_of({3}).standard_deviation));
   EXPECT_TRUE(std::isnan(mean_of({3}).standard_error));

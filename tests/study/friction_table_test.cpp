@@ -268,6 +268,19 @@ TEST(ReadFriction, OfAStudyGivesItsAverages) {
   EXPECT_FALSE(friction_table(numbers, {.kept_codes = untrusted_codes()}).has_speeds());
 }
 
+TEST(ReadFriction, SaysThatAStudyIsNotComplete) {
+  const test::ExampleStudy example;
+  SweepOptions half;
+  half.shard = engine::Shard{1, 2};
+  example.run(half);
+  const FrictionNumbers part = read_friction(example.results());
+  EXPECT_EQ(part.incomplete, "the study is not complete: 4 of 8 cases are done");
+  EXPECT_THAT(friction_table(part, {.kept_codes = untrusted_codes()}).origin,
+              testing::Contains(part.incomplete));
+  example.run();
+  EXPECT_EQ(read_friction(example.results()).incomplete, "");
+}
+
 TEST(ReadFriction, CountsAScanThatFailedInNoMean) {
   const test::ExampleStudy example;
   example.add_scan("scan_3.h5", 3, true);  // with a hole that nobody fills

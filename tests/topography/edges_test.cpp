@@ -16,6 +16,7 @@
 #include "tabor/scan/file.hpp"
 #include "tabor/synthesis/synthesis.hpp"
 #include "tabor/topography/geometry.hpp"
+#include "tabor/topography/levelling.hpp"
 #include "tabor/topography/treatment.hpp"
 
 namespace tabor::topography::test {
@@ -259,6 +260,29 @@ TEST(Edges, LevelTheScanWhereverItWasCut) {
   const auto is_tilt = [](const Warning& warning) { return warning.code == "tilt"; };
   const Topography cut = apply({"edges=cut"}, tilted);
   EXPECT_TRUE(std::any_of(cut.warnings.begin(), cut.warnings.end(), is_tilt));
+}
+
+// A filter that wraps round makes opposite edges match, whatever they were.
+TEST(Edges, AreNotMadeToMatchByAFilter) {
+  const auto codes = [](const Topography& surface) { return codes_of(surface.warnings); };
+  const Topography part =
+      level(crop(synthesis::self_affine(self_affine(0.8, 1, 2)), {5, 7, 80, 60}), Form::plane);
+  const Topography filtered = apply({"lowpass=hann:6um"}, part);
+  EXPECT_FALSE(repeats(filtered));
+  EXPECT_FALSE(tiles_as_it_is(filtered));
+  EXPECT_THAT(codes(filtered), testing::Contains("filter-wraps"));
+  EXPECT_EQ(metrology::power_spectra(filtered).window, metrology::PsdWindow::hann);
+  const Topography twice = apply({"lowpass=hann:6um", "level=mean"}, filtered);
+  EXPECT_FALSE(repeats(twice));
+  for (const Treatment& steps : {Treatment{"lowpass=gauss:6um"},
+                                 {"edges=cut", "lowpass=hann:6um"},
+                                 {"mirror", "lowpass=hann:6um"}}) {
+    EXPECT_THAT(codes(apply(steps, part)), testing::Not(testing::Contains("filter-wraps")));
+  }
+  const Topography tile = synthesis::self_affine(self_affine(0.8, 1, 2));
+  EXPECT_TRUE(repeats(apply({"lowpass=hann:6um"}, tile)));
+  EXPECT_THAT(codes(apply({"lowpass=hann:6um"}, tile)),
+              testing::Not(testing::Contains("filter-wraps")));
 }
 
 TEST(Edges, AreCutLast) {

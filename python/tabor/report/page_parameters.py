@@ -47,12 +47,12 @@ def _answer(source):
     scans = [] if source.is_grouped else [("scan", place) for place in range(len(source.scans))][:MOST_SCANS]
     shown = scans + means + [("change", None)] * (source.has_change and bool(scans))
     left_out = len(source.groups) - len(means) if source.is_grouped else len(source.scans) - len(scans)
-    what = "groups stand in the results" if source.is_grouped else "scans stand in the results and count in the mean"
+    what = "groups" if source.is_grouped else "scans, which count in the mean"
     return {
         "caption": _caption(source),
         "header": [_heading(source, column) for column in shown],
         "rows": [(row[0], row[1:]) for row in (_row(source, name, shown) for name in shown_first(source))],
-        "note": f"{left_out} more {what}." if left_out > 0 else "",
+        "note": f"The results hold {left_out} more {what}." if left_out > 0 else "",
     }
 
 

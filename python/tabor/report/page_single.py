@@ -98,7 +98,7 @@ def _answer_caption(states, area):
 
 
 def _left_out(count):
-    return f"{count} more pressures stand in the results." if count else ""
+    return f"The results hold {count} more pressures." if count else ""
 
 
 def evenly(count, most):

@@ -27,7 +27,7 @@ def _answer(slide):
     rows = [(name, cells) for name, cells in rows if any(cell != "\N{EN DASH}" for cell in cells)]
     pressure = units.pressure(slide.states[0].pressure)
     left_out = len(slide.states) - len(shown)
-    note = f"{left_out} more states stand in the results." if left_out else ""
+    note = f"The results hold {left_out} more states." if left_out else ""
     return {"caption": f"Along the way, under {pressure}", "header": [state.name for state in shown], "rows": rows, "note": note}
 
 

@@ -11,6 +11,8 @@ namespace {
 
 /// Costagliola et al. 2021 find a few percent; where more does not fit, where it goes decides.
 constexpr double kSpillOver = 0.05;
+/// Share of the dose: droplets are whole, and a literal one raises all of a pool.
+constexpr double kOverdose = 0.02;
 /// Beyond, most of the contact is counted as frictionless.
 constexpr double kWetShare = 0.5;
 /// A share of itself: beyond, a wet share says more of the pixel than of the surface.
@@ -80,6 +82,15 @@ Warnings of_film(const topography::Topography& surface, const deposition::Film& 
                      "<droplet_height>",
                      n_droplets, n_droplets == 1 ? "" : "s", n_pixels),
          1 / static_cast<double>(n_droplets)});
+  }
+  const double asked = film.mean_film * surface.grid.area();
+  if (asked > 0 && film.dosed_volume > (1 + kOverdose) * asked) {
+    const double excess = film.dosed_volume / asked - 1;
+    list.push_back({"overdosed",
+                    fmt::format("The last droplet made the dose {} larger than asked; use a "
+                                "smaller <droplet_height>",
+                                percent(excess, 2)),
+                    excess});
   }
   if (film.lost_volume > 0) {
     const double share = film.lost_volume / film.dosed_volume;

@@ -22,14 +22,23 @@ std::string take_until(std::string_view& rest, std::string_view separator) {
   return part;
 }
 
+/// The first "; " that stands in no brackets.
+std::size_t end_of_clause(std::string_view text) {
+  int depth = 0;
+  for (std::size_t i = 0; i + 1 < text.size(); ++i) {
+    depth += text[i] == '(' ? 1 : text[i] == ')' ? -1 : 0;
+    if (depth <= 0 && text[i] == ';' && text[i + 1] == ' ') return i;
+  }
+  return text.size();
+}
+
 /// Where the subject of the line ends: before ": got " or ": expected ", else at the first "; ".
 std::string take_subject(std::string_view& rest) {
   const std::size_t got = rest.find(": " + std::string(kGot));
   const std::size_t expected = rest.find(": " + std::string(kExpected));
   const bool has_parts = std::min(got, expected) != std::string_view::npos;
-  if (!has_parts) return take_until(rest, "; ");
-  const std::string what(rest.substr(0, std::min(got, expected)));
-  rest.remove_prefix(what.size() + 2);
+  const std::string what(rest.substr(0, has_parts ? std::min(got, expected) : end_of_clause(rest)));
+  rest.remove_prefix(std::min(what.size() + 2, rest.size()));
   return what;
 }
 

@@ -131,6 +131,7 @@ io::Json report_fits(const FrictionTable& table, Context& context) {
   for (const forming::DarmstadFit& fit : forming::fit_darmstad(table)) {
     const double density = in_g_per_m2(fit.lubricant_density);
     all.push_back({{"lubricant_density_g_per_m2", density}, {"largest_error", fit.largest_error}});
+    if (!(fit.largest_error > 0)) continue;
     context.warn(
         fmt::format("{} g/m^2: the fitted law misses a friction coefficient by up to {:.3g}",
                     density, fit.largest_error));
@@ -144,6 +145,7 @@ std::string summary_of(const Request& request, const forming::UnitSystem& units,
   facts.fact("results", request.results);
   facts.fact("group", table.group);
   facts.fact("numbers", std::to_string(table.entries.size()));
+  facts.fact("fewer scans", reasons_for_fewer_scans(table));
   facts.fact("left out", reasons_of(table));
   facts.fact("units", fmt::format("{}: {}, {}, {}", units.words, units.pressure.name,
                                   units.speed.name, units.areal_density.name));
@@ -154,6 +156,7 @@ std::string summary_of(const Request& request, const forming::UnitSystem& units,
 FrictionTable table_for(const Request& request, Context& context) {
   const study::FrictionNumbers numbers = study::read_friction(request.results);
   context.files.reads(numbers.file);
+  if (!numbers.incomplete.empty()) context.warn(numbers.incomplete);
   FrictionTable table = study::friction_table(numbers, request.choice);
   table.origin.insert(table.origin.begin(), "command: " + context.command_line);
   if (request.program == Program::lsdyna) table = forming::complete_rows(std::move(table));

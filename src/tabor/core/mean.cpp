@@ -1,6 +1,7 @@
 #include "tabor/core/mean.hpp"
 
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace tabor {
@@ -14,7 +15,9 @@ Mean mean_of(const std::vector<double>& values) {
   if (values.size() >= 2) {
     double squares = 0;
     for (const double value : values) squares += (value - result.mean) * (value - result.mean);
-    result.standard_deviation = std::sqrt(squares / (n - 1));
+    const double rounding = 4 * std::numeric_limits<double>::epsilon() * std::abs(result.mean);
+    const double deviation = std::sqrt(squares / (n - 1));
+    result.standard_deviation = deviation > rounding ? deviation : 0;
     result.standard_error = result.standard_deviation / std::sqrt(n);
   }
   return result;

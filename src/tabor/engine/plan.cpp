@@ -145,7 +145,7 @@ Shard parse_shard(std::string_view text) {
       return {static_cast<int>(*index), static_cast<int>(*count)};
     }
   }
-  throw InputError("<shard>", "'" + std::string(text) + "'", "i/n with 1 <= i <= n, such as 2/8",
+  throw InputError("--shard", "'" + std::string(text) + "'", "i/n with 1 <= i <= n, such as 2/8",
                    "");
 }
 

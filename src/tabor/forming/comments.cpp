@@ -67,6 +67,8 @@ std::string counts_of(const FrictionTable& table) {
               ? fmt::format("each the mean of {} scan{}", most->n, most->n == 1 ? "" : "s")
               : fmt::format("means of {} to {} scans", least->n, most->n);
   const std::size_t n = n_left_out(table);
+  const std::string fewer = reasons_for_fewer_scans(table);
+  if (!fewer.empty()) text += fmt::format("; over fewer scans: {}", fewer);
   return text +
          (n == 0 ? "; none left out" : fmt::format("; {} left out ({})", n, reasons_of(table)));
 }

@@ -46,19 +46,21 @@ std::vector<DensityLayer> layers_of(const FrictionTable& table) {
 }
 
 std::size_t n_left_out(const FrictionTable& table) {
-  std::size_t n = 0;
-  for (const LeftOut& one : table.left_out) n += one.whole ? 1 : one.scans.size();
-  return n;
+  return static_cast<std::size_t>(std::count_if(table.left_out.begin(), table.left_out.end(),
+                                                [](const LeftOut& one) { return one.whole; }));
 }
 
-std::string reasons_of(const FrictionTable& table) {
+namespace {
+
+std::string reasons(const FrictionTable& table, bool whole) {
   std::vector<std::pair<std::string, std::size_t>> counts;
   for (const LeftOut& one : table.left_out) {
+    if (one.whole != whole) continue;
     const auto found = std::find_if(counts.begin(), counts.end(),
                                     [&](const auto& count) { return count.first == one.code; });
     std::size_t& n =
         found != counts.end() ? found->second : counts.emplace_back(one.code, 0).second;
-    n += one.whole ? 1 : one.scans.size();
+    ++n;
   }
   std::string text;
   for (const auto& [code, n] : counts) {
@@ -66,6 +68,12 @@ std::string reasons_of(const FrictionTable& table) {
   }
   return text;
 }
+
+}  // namespace
+
+std::string reasons_of(const FrictionTable& table) { return reasons(table, true); }
+
+std::string reasons_for_fewer_scans(const FrictionTable& table) { return reasons(table, false); }
 
 FrictionTable complete_rows(FrictionTable table) {
   const std::vector<DensityLayer> layers = layers_of(table);

@@ -60,11 +60,13 @@ struct DensityLayer {
 /// Returns the same table in layers.
 std::vector<DensityLayer> layers_of(const FrictionTable& table);
 
-/// Returns the number of missing entries plus that of scans that do not count in the others.
+/// Returns the number of missing entries.
 std::size_t n_left_out(const FrictionTable& table);
 
-/// Returns "flood 2, not-converged 1"; "" if nothing is left out.
+/// Returns "flood 2, not-converged 1", with how many numbers each reason took; "" if it took none.
 std::string reasons_of(const FrictionTable& table);
+/// Returns the same for the numbers that are there, as means over fewer scans.
+std::string reasons_for_fewer_scans(const FrictionTable& table);
 
 /// Removes pressures at which, for the same density, not all speeds are there: they move to
 /// `left_out`, as "incomplete".

@@ -31,7 +31,7 @@ std::string openradioss_deck(const FrictionTable& table, const UnitSystem& units
   std::vector<std::string> head = head_of(table, units, "OpenRadioss");
   head.emplace_back(
       "Ifric = 2: mu = Fric + C1 e^(C2 V) p^2 + C3 e^(C4 V) p + C5 e^(C6 V), fitted to the numbers "
-      "by least squares; outside their range it is worth nothing");
+      "by least squares; it does not hold outside their range");
   const std::vector<DarmstadFit> fits = fit_darmstad(table);
   if (fits.size() > 1) {
     head.emplace_back("/FRICTION knows no lubricant density: each has a card of its own");

@@ -122,6 +122,15 @@ std::string attribute(const io::Hdf5Reader& file, const char* name) {
   return file.has_attribute("/", name) ? file.text("/", name) : "?";
 }
 
+/// What is missing of a study; "" if nothing is, and for other results.
+std::string incompleteness_of(const io::Hdf5Reader& file) {
+  if (!file.has_attribute("/", "n_cases") || !file.has_attribute("/", "n_cases_done")) return "";
+  const auto n = static_cast<Index>(file.number("/", "n_cases"));
+  const auto n_done = static_cast<Index>(file.number("/", "n_cases_done"));
+  if (n_done >= n) return "";
+  return fmt::format("the study is not complete: {} of {} cases are done", n_done, n);
+}
+
 FrictionNumbers read_from(const io::Hdf5Reader& file, const fs::path& path) {
   FrictionNumbers read;
   read.file = path;
@@ -138,6 +147,8 @@ FrictionNumbers read_from(const io::Hdf5Reader& file, const fs::path& path) {
   read.origin = {fmt::format("source: {}, made by tabor {} on {}", path.string(),
                              attribute(file, "software_version"), attribute(file, "created")),
                  "made with: " + attribute(file, "command")};
+  read.incomplete = incompleteness_of(file);
+  if (!read.incomplete.empty()) read.origin.push_back(read.incomplete);
   return read;
 }
 

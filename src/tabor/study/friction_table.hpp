@@ -28,6 +28,7 @@ struct FrictionNumbers {
   std::vector<FrictionNumber> numbers;
   std::vector<std::string> origin;  ///< which file, made by which command and version
   std::filesystem::path file;       ///< that was read
+  std::string incomplete = {};      ///< says which part of its study is done; "" if all of it is
 };
 
 /// Reads a folder of `tabor sweep` or its results.h5, or a file of `tabor friction -o`. Throws

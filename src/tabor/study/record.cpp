@@ -12,6 +12,8 @@
 #include "tabor/io/files/atomic_file.hpp"
 #include "tabor/io/files/sealed_file.hpp"
 #include "tabor/io/text/json.hpp"
+#include "tabor/metrology/areal/parameters.hpp"
+#include "tabor/numerics/field_statistics.hpp"
 #include "tabor/results/fields_file.hpp"
 #include "tabor/study/slides.hpp"
 #include "tabor/study/task_file.hpp"
@@ -143,8 +145,9 @@ void write_surface(const engine::Store& store, const engine::Task& task,
   write_spectrum(writer, "radial", "c2d_m4", spectra.radial);
   writer.attribute("/psd", "convention", std::string(name_of(spectra.convention)));
   writer.attribute("/psd", "window", std::string(name_of(spectra.window)));
-  writer.attribute("/psd", "rms_height_m", spectra.rms_height);
-  writer.attribute("/psd", "rms_slope", spectra.rms_slope);
+  // Both measure the heights; the spectrum's own are those under its window.
+  writer.attribute("/psd", "rms_height_m", metrology::rms_height(topography));
+  writer.attribute("/psd", "rms_slope", numerics::rms_slope(topography.height, topography.grid));
   writer.commit();
 }
 

@@ -36,8 +36,9 @@ void check(const io::Config& config, const std::optional<cases::Objection>& obje
 /// Runs a parser of a lower module and adds the place of the key to its errors.
 template <typename Parse>
 auto at_key(const io::Config& config, std::string_view key, Parse parse) {
+  const std::string value = config.text(key);
   try {
-    return parse(config.text(key));
+    return parse(value);
   } catch (const InputError& error) {
     throw InputError(config.place(key) + ": " + error.what());
   }

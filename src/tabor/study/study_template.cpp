@@ -95,7 +95,7 @@ group = "before"                          # averages are taken over a group
 # reading = "literal"
 
 # [experiment]
-# file = "measured.csv"                   # friction to compare with; docs/results.md says its columns
+# file = "measured.csv"                   # friction to compare with; columns: docs/results.md
 )";
   return text;
 }

@@ -178,11 +178,14 @@ bool repeats(const Topography& topography) {
 }
 
 void look_at_edges(Topography& topography) {
-  if (!repeats(topography)) topography.edges_match = edges_match(topography.height);
+  if (repeats(topography) || topography.edges_joined) return;
+  topography.edges_match = edges_match(topography.height);
 }
 
 bool tiles_as_it_is(const Topography& topography) {
-  return topography.periodic || (topography.edges != Edges::end && edges_match(topography.height));
+  if (topography.periodic) return true;
+  return topography.edges != Edges::end && !topography.edges_joined &&
+         edges_match(topography.height);
 }
 
 Topography with_edges(Topography topography, Edges edges) {

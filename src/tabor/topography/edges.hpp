@@ -14,7 +14,8 @@ inline constexpr auto kEdges = names<Edges>("tile", "cut", "end");
 /// but a kink.
 bool edges_match(const Field& height);
 
-/// Stores whether the edges match. An earlier match stays: levelling tilts a tile.
+/// Stores whether the edges match. An earlier match stays, as levelling tilts a tile; so do edges
+/// that a filter has joined.
 void look_at_edges(Topography& topography);
 
 /// True where the surface repeats: it is known to, the user says so, or its edges match.

@@ -15,6 +15,7 @@
 #include "tabor/core/units.hpp"
 #include "tabor/numerics/field_statistics.hpp"
 #include "tabor/spectral/fft.hpp"
+#include "tabor/topography/edges.hpp"
 #include "tabor/topography/gaussian.hpp"
 
 namespace tabor::topography {
@@ -179,6 +180,14 @@ Topography filtered(Topography topography, const Filter& filter, bool high) {
   if (high) {
     result.height = numerics::without_rounding(before.height - result.height,
                                                numerics::largest_magnitude(before.height));
+  }
+  const bool wraps = !is_gaussian(filter.kind);
+  if (wraps && !repeats(before) && !before.edges_joined && !edges_match(before.height)) {
+    result.edges_joined = true;
+    result.warnings.push_back({.code = "filter-wraps",
+                               .text = fmt::format("The filter {} joins opposite edges, which do "
+                                                   "not match; put <mirror> before it",
+                                                   to_string(filter))});
   }
   const auto warning = warning_about(filter, filter.cutoff_wavelength(side), before.grid);
   if (!warning.empty()) result.warnings.push_back({.code = "filter", .text = warning});

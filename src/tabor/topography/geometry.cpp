@@ -27,6 +27,7 @@ bool inside(const PixelWindow& w, const Grid& grid) {
 void lose_edges(Topography& topography) {
   topography.periodic = false;
   topography.edges_match = false;
+  topography.edges_joined = false;
   if (topography.edges != Edges::end) topography.edges.reset();
 }
 

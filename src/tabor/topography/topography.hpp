@@ -35,6 +35,8 @@ struct Topography {
   /// True where opposite edges were found to match (edges.hpp). It survives levelling, which tilts
   /// the tile.
   bool edges_match = false;
+  /// True where a filter that wraps round has joined edges that did not match.
+  bool edges_joined = false;
 };
 
 /// True for a map of one row or one column: its width has no meaning.

@@ -29,6 +29,7 @@ void take_usual_materials(PointSettings& settings) {
   LubricantSettings& oil = settings.lubricant;
   if (!oil.viscosity && !oil.glycerol_fraction) oil.viscosity = kUsualViscosity;
   if (!oil.pressure_viscosity) oil.pressure_viscosity = kUsualPressureViscosity;
+  if (settings.moes_viscosity == 0.0) oil.viscosity_law = material::ViscosityLaw::constant;
   if (!oil.density_law) oil.density_law = material::DensityLaw::dowson_higginson;
 }
 
