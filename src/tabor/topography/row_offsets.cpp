@@ -109,8 +109,9 @@ RowJumps row_jumps(const Field& height, Index sample) {
   }
   if (jumps.empty()) return all;
   all.within_rows = middle_of(spreads) / std::numbers::sqrt2;
-  const auto n_heights = static_cast<double>((height.cols() + stride - 1) / stride);
-  all.chance = 1.2533 / std::sqrt(n_heights);  // of the median of a normal sample: sqrt(pi / 2 / n)
+  const Index n_heights = (height.cols() + stride - 1) / stride;
+  all.chance = 1.2533 / std::sqrt(static_cast<double>(
+                            n_heights));  // of the median of a normal sample: sqrt(pi / 2 / n)
   measure(std::move(jumps), all);
   return all;
 }
