@@ -110,8 +110,8 @@ RowJumps row_jumps(const Field& height, Index sample) {
   if (jumps.empty()) return all;
   all.within_rows = middle_of(spreads) / std::numbers::sqrt2;
   const Index n_heights = (height.cols() + stride - 1) / stride;
-  all.chance = 1.2533 / std::sqrt(static_cast<double>(
-                            n_heights));  // of the median of a normal sample: sqrt(pi / 2 / n)
+  // The standard error of the median of a normal sample: sqrt(pi / 2 / n).
+  all.chance = 1.2533 / std::sqrt(static_cast<double>(n_heights));
   measure(std::move(jumps), all);
   return all;
 }
