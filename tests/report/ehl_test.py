@@ -4,6 +4,7 @@ import csv
 import io
 import re
 import tempfile
+import types
 import unittest
 from pathlib import Path
 
@@ -231,10 +232,14 @@ class Ehl(unittest.TestCase):
     def test_a_roller_film_that_closes_before_the_force_is_largest_is_said_so(self):
         history = {"time": np.array([0, 1e-3, 2e-3]), "min_film": np.array([2.0, 1.0, 3.0])}
         history["force"] = np.array([0, 1.0, 2.0])
-        caption = ehl_curves._squeeze_caption(history)
+        source = types.SimpleNamespace(scalars={})
+        caption = ehl_curves._squeeze_caption(source, history)
         self.assertEqual(caption, "The force is largest after 2 ms, the film thinnest after 1 ms.")
         history["force"] = np.array([2.0, 1.0, 0])
-        self.assertIn("goes on closing", ehl_curves._squeeze_caption(history))
+        self.assertIn("goes on closing", ehl_curves._squeeze_caption(source, history))
+        source.scalars = {"time_max_force_s": 1.9e-3, "time_min_film_s": 1.1e-3}  # of the result, between steps
+        caption = ehl_curves._squeeze_caption(source, history)
+        self.assertEqual(caption, "The force is largest after 1.9 ms, the film thinnest after 1.1 ms.")
 
     def test_no_two_of_many_curves_look_alike(self):
         for n in (1, 7, 8, 9, 30):

@@ -27,16 +27,17 @@ def squeeze(source):
     yield Drawn(
         "squeeze",
         "Force and film against time",
-        _squeeze_caption(history),
+        _squeeze_caption(source, history),
         chart.Figure([[panel]], 3.2),
         {"": table_text({f"{name}": values for name, values in history.items()})},
     )
 
 
-def _squeeze_caption(history):
-    """When the force is largest and the film thinnest."""
-    time = history["time"] * 1e3
-    force, film = time[np.argmax(history["force"])], time[np.argmin(history["min_film"])]
+def _squeeze_caption(source, history):
+    """When the force is largest and the film thinnest: the numbers of the result, which may lie between steps."""
+    time = history["time"]
+    force = 1e3 * source.scalars.get("time_max_force_s", time[np.argmax(history["force"])])
+    film = 1e3 * source.scalars.get("time_min_film_s", time[np.argmin(history["min_film"])])
     text = f"The force is largest after {units.number(force)} ms, the film thinnest after {units.number(film)} ms"
     return text + (": it goes on closing under a falling force." if film > force else ".")
 

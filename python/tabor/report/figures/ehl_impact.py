@@ -95,11 +95,12 @@ def _peaks(first, highest):
     return f"{text} {spike} grows with the number of nodes{cut}."
 
 
-def _thinnest(history):
-    """Where the film was thinnest, and how thick in the centre then."""
+def _thinnest(source, history):
+    """Where the film was thinnest, and how thick in the centre then: the numbers of the result, which may lie between steps."""
     at = np.argmin(history["min_film"])
-    least, centre = history["min_film"][at], history["central_film"][at]
-    text = f"The film is thinnest, {units.length(least)}, after {units.number(history['time'][at] * US)} µs"
+    least, centre = source.scalars.get("min_film_m", history["min_film"][at]), history["central_film"][at]
+    when = source.scalars.get("time_min_film_s", history["time"][at])
+    text = f"The film is thinnest, {units.length(least)}, after {units.number(when * US)} µs"
     if centre > 1.01 * least:
         return f"{text}, in a ring around liquid that is {units.length(centre)} thick in the centre."
     return f"{text}, in the centre."
@@ -116,7 +117,7 @@ def _film(source, history):
     return Drawn(
         "impact_film",
         "Film thickness against time",
-        _thinnest(history),
+        _thinnest(source, history),
         figure,
         {"": table_text(source.table("history", ("time", "central_film", "min_film")))},
     )
