@@ -302,6 +302,11 @@ TEST(Edges, KnowTheScanThatImagesContinue) {
   EXPECT_TRUE(same_bits(scan_of_images(cut)->height, scan.height));
   EXPECT_DOUBLE_EQ(scan_of_images(cut)->grid.dx(), scan.grid.dx());
   EXPECT_FALSE(repeats(*scan_of_images(cut)));
+  const Folder folder;
+  scan::write(cut, folder / "cut.h5");
+  const Topography again = scan::read(folder / "cut.h5");
+  ASSERT_TRUE(scan_of_images(again));
+  EXPECT_EQ(mirror(again).grid.nx, cut.grid.nx);
   cut.height(0, 0) += 1e-6;
   EXPECT_FALSE(scan_of_images(cut));
 }

@@ -17,7 +17,7 @@ constexpr std::string_view kExpected = "expected ";
 /// Takes a part and its separator off the front of `rest`.
 std::string take_until(std::string_view& rest, std::string_view separator) {
   const std::size_t end = std::min(rest.find(separator), rest.size());
-  const std::string part(rest.substr(0, end));
+  std::string part(rest.substr(0, end));
   rest.remove_prefix(std::min(end + separator.size(), rest.size()));
   return part;
 }
@@ -37,7 +37,7 @@ std::string take_subject(std::string_view& rest) {
   const std::size_t got = rest.find(": " + std::string(kGot));
   const std::size_t expected = rest.find(": " + std::string(kExpected));
   const bool has_parts = std::min(got, expected) != std::string_view::npos;
-  const std::string what(rest.substr(0, has_parts ? std::min(got, expected) : end_of_clause(rest)));
+  std::string what(rest.substr(0, has_parts ? std::min(got, expected) : end_of_clause(rest)));
   rest.remove_prefix(std::min(what.size() + 2, rest.size()));
   return what;
 }

@@ -151,7 +151,7 @@ std::string pixels_text(const Grid& grid) {
 }
 
 void describe(const Scan& scan, Facts& facts) {
-  const bool has_images = scan.surface.edges == topography::Edges::cut && scan.surface.tiles > 1;
+  const bool has_images = scan.surface.tiles > 1;
   facts.fact("scan", fmt::format("{} ({}), {}{}", scan.path, scan.surface.format,
                                  pixels_text(scan.surface.grid),
                                  has_images ? ", 2 x 2 mirror images" : ""));

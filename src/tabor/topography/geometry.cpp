@@ -23,6 +23,14 @@ bool inside(const PixelWindow& w, const Grid& grid) {
          w.nx <= grid.nx - w.x0 && w.ny <= grid.ny - w.y0;
 }
 
+/// True for the images that mirror() makes, whatever filters did to them since, and where a file
+/// has them.
+bool is_mirrored(const Topography& topography) {
+  constexpr double rounding = 1e-6;  // of the rms height, as filters leave it
+  return topography.tiles == 2 &&
+         consists_of_images(topography.height, rounding * numerics::rms_height(topography.height));
+}
+
 /// Forgets the edges: those of a part are others, unless the body ends there.
 void lose_edges(Topography& topography) {
   topography.periodic = false;
@@ -70,7 +78,7 @@ Topography mirror(Topography topography) {
     throw InputError("mirror", fmt::format("a surface with edges={}", kEdges.of(*topography.edges)),
                      "a cut-out of a larger one", "say once what lies beyond the edges");
   }
-  if (topography.edges == Edges::cut) return topography;
+  if (topography.edges == Edges::cut || is_mirrored(topography)) return topography;
   topography.height = mirror_images(topography.height);
   set_spacing(topography.grid, 2 * topography.grid.nx, 2 * topography.grid.ny);
   topography.periodic = true;
@@ -82,11 +90,7 @@ Topography mirror(Topography topography) {
 }
 
 std::optional<Topography> scan_of_images(const Topography& topography) {
-  constexpr double rounding = 1e-6;  // of the rms height, as filters leave it
-  if (topography.edges != Edges::cut || topography.tiles != 2 ||
-      !consists_of_images(topography.height, rounding * numerics::rms_height(topography.height))) {
-    return std::nullopt;
-  }
+  if (!is_mirrored(topography)) return std::nullopt;
   Topography scan;
   scan.grid = grid_of_image(topography.grid);
   scan.height = first_image(topography.height);
