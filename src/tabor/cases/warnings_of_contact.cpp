@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "tabor/cases/warnings.hpp"
+#include "tabor/core/rows.hpp"
 #include "tabor/core/units.hpp"
 #include "tabor/metrology/areal/parameters.hpp"
 #include "tabor/spectral/fft.hpp"
@@ -70,14 +72,18 @@ double load_on_seams(const Field& pressure, double tiles) {
     const double place = std::fmod(static_cast<double>(i) + 0.5, side);
     return std::min(place, side - place) < kEdgeBand * side;
   };
-  double load = 0;
-  for (Index y = 0; y < pressure.rows(); ++y) {
-    const bool whole = near(y, pressure.rows());
-    for (Index x = 0; x < pressure.cols(); ++x) {
-      if (whole || near(x, pressure.cols())) load += pressure(y, x);
-    }
+  std::vector<Index> columns;
+  for (Index x = 0; x < pressure.cols(); ++x) {
+    if (near(x, pressure.cols())) columns.push_back(x);
   }
-  return load / pressure.sum();
+  const auto loads = sum_over_rows<2>(pressure.rows(), [&](Index y) {
+    const double whole = pressure.row(y).sum();
+    if (near(y, pressure.rows())) return Eigen::Array2d(whole, whole);
+    double beside = 0;
+    for (const Index x : columns) beside += pressure(y, x);
+    return Eigen::Array2d(beside, whole);
+  });
+  return loads[0] / loads[1];
 }
 
 void warn_of_load_on_seams(const topography::Topography& surface, const contact::State& state,
