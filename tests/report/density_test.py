@@ -123,9 +123,11 @@ class Answers(StudyCase):
         self.assertNotIn("full from", html[html.index('id="answers"') : html.index('class="places"')])
 
     def test_a_plateau_on_which_hardly_any_contact_is_wet_is_dry(self):
-        places = [{"place": place, "lubricated_share": share} for place, share in (("plateau", 0.002), ("plateau", 0.02), ("beyond", 0.002), ("", 0.2))]
-        self.assertEqual([density_curves_of_page._place(place) for place in places],
-                         ["dry (0.2 %)", "plateau (2 %)", "beyond (0.2 %)", "no plateau (20 %)"])
+        places = [("plateau", 0.002, True), ("plateau", 0.002, False), ("beyond", 0.2, True), ("", 0.2, False)]
+        texts = [density_curves_of_page._place({"place": place, "lubricated_share": share}, is_dry) for place, share, is_dry in places]
+        self.assertEqual(texts, ["dry (0.2 %)", "plateau (0.2 %)", "beyond (20 %)", "no plateau (20 %)"])
+        self.assertTrue(density_curves_of_page._is_dry({"lubricated_share": 0.002}))
+        self.assertFalse(density_curves_of_page._is_dry({}))  # of an older file
 
     def test_many_pressures_and_rows_are_cut_and_counted(self):
         pressures = tuple(1e6 * (place + 1) for place in range(12))

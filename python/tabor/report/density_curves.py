@@ -13,7 +13,7 @@ from tabor.report.table import Table
 
 PRESSURE = "mean_pressure_Pa"
 WET = "lubricated_share"
-DRY_SHARE = 0.01  #: so small a wet share of a plateau is none
+DRY_SHARE = 0.01  #: a plateau whose wet share is below this counts as dry, as in the terminal
 EDGES = ("plateau_from_g_per_m2", "plateau_to_g_per_m2", "beyond_plateau_g_per_m2")
 MOST_COLUMNS = 8  # pressures of the table
 MOST_ROWS = 40
@@ -97,7 +97,8 @@ def load_places(file, warnings):
             warnings.append(f"/{name}: {problem}; {_NO_PLACES}; compute the result again.")
         if node is None or problem:
             return Places()
-        tables.append(Table({key: hdf.columns(node)[key] for key in (*texts, *columns)}))
+        optional = [WET] if WET in node else []  # of plateaus in older files
+        tables.append(Table({key: hdf.columns(node)[key] for key in dict.fromkeys((*texts, *columns, *optional))}))
     return Places(*tables)
 
 
@@ -115,7 +116,8 @@ def places_table(places, group_names):
         rows.append((f"plateau from{name}", [_at(edges, pressure, _first) for pressure in shown]))
         for density in asked.distinct(DENSITY):
             lying = asked.where(asked.equal(DENSITY, density))
-            texts = [_at(lying, pressure, _place) for pressure in shown]
+            dry = [_at(edges, pressure, _is_dry) is True for pressure in shown]
+            texts = [_at(lying, pressure, lambda row, dry=is_dry: _place(row, dry)) for pressure, is_dry in zip(shown, dry)]
             firsts = [_at(edges, pressure, lambda row: row[EDGES[0]]) for pressure in shown]
             texts = [f"less wet{text.removeprefix('below')}, single droplets" if text.startswith("below") and density > first else text
                      for text, first in zip(texts, firsts)]
@@ -142,8 +144,12 @@ def _end(row):
     return f"{units.number(float(row[EDGES[1]]))} to {units.density(float(row[EDGES[2]]))}"
 
 
-def _place(row):
-    word = "dry" if row["place"] == "plateau" and row[WET] < DRY_SHARE else row["place"]
+def _is_dry(row):
+    return bool(row.get(WET, 1) < DRY_SHARE)
+
+
+def _place(row, is_dry):
+    word = "dry" if row["place"] == "plateau" and is_dry else row["place"]
     return f"{word or 'no plateau'} ({units.number(100 * float(row[WET]), 3)} %)"
 
 

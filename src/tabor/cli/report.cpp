@@ -66,7 +66,7 @@ std::string complaint_of(const std::string& output) {
   throw std::runtime_error("report: " + complaint);
 }
 
-/// A page's name would become that of a folder.
+/// Rejects the name of a page: a folder of that name would be made.
 void check_folder(const std::string& output) {
   const std::string ending = std::filesystem::path(output).extension().string();
   if ((ending != ".html" && ending != ".htm") || std::filesystem::is_directory(output)) return;

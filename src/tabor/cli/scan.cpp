@@ -151,10 +151,10 @@ std::string pixels_text(const Grid& grid) {
 }
 
 void describe(const Scan& scan, Facts& facts) {
-  const bool has_images = scan.surface.tiles > 1;
+  const double n = scan.surface.tiles;
   facts.fact("scan", fmt::format("{} ({}), {}{}", scan.path, scan.surface.format,
                                  pixels_text(scan.surface.grid),
-                                 has_images ? ", 2 x 2 mirror images" : ""));
+                                 n > 1 ? fmt::format(", {0} x {0} mirror images", n) : ""));
   facts.fact("treatment",
              scan.treatment.empty() ? "none" : fmt::format("{}", fmt::join(scan.treatment, ", ")));
 }

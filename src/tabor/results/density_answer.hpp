@@ -43,11 +43,11 @@ std::optional<LimitDifference> difference_from_limit(
 /// Returns the position of a wet share on the curve; nullopt for a curve without a plateau.
 std::optional<Place> place_of(const cases::DensityCurve& curve, double lubricated_share);
 
-/// Smallest wet share that counts as one.
+/// A plateau whose wet share is below this counts as dry.
 inline constexpr double kDryShare = 0.01;
 
-/// Returns the position as one word: "dry" on a plateau on which no more than kDryShare is wet, "no
-/// plateau" where there is none.
+/// Returns the position as one word: "dry" on a plateau that counts as dry, "no plateau" where
+/// there is none.
 std::string word_of_place(const cases::DensityCurve& curve, double lubricated_share);
 
 /// Returns the wet share at a density [kg/m^2]. Between two points of the curve it lies on the

@@ -28,61 +28,41 @@ std::vector<std::complex<Real>> turns(Index n) {
   return list;
 }
 
-/// Frequencies k and n - k of a pair of cosine transforms.
+/// Values at the frequencies k and n - k.
 template <typename Real>
-struct Two {
+struct FrequencyPair {
   std::complex<Real> low;
   std::complex<Real> high;
 };
 
-/// Cosine transforms from the complex transform of the reordered values; turn: that of k.
-template <typename Real>
-Two<Real> to_cosines(const Two<Real>& z, std::complex<Real> turn) {
+/// Makes cosine transforms from the complex transform of the reordered values; turn: that of k.
+constexpr auto to_cosines = []<typename Real>(const FrequencyPair<Real>& z, std::complex<Real> turn,
+                                              Index = 0) -> FrequencyPair<Real> {
   const std::complex<Real> u = times(turn, z.low);
   const std::complex<Real> w = times(std::conj(turn), z.high);
   const std::complex<Real> difference = u - w;
   return {(u + w) * Real(0.5), {Real(-0.5) * difference.imag(), Real(0.5) * difference.real()}};
-}
+};
 
-/// Inverse of to_cosines().
-template <typename Real>
-Two<Real> from_cosines(const Two<Real>& c, std::complex<Real> turn) {
+/// Inverse of to_cosines.
+constexpr auto from_cosines = []<typename Real>(const FrequencyPair<Real>& c,
+                                                std::complex<Real> turn,
+                                                Index = 0) -> FrequencyPair<Real> {
   const std::complex<Real> turned(-c.high.imag(), c.high.real());
   return {times(std::conj(turn), c.low - turned), times(turn, c.low + turned)};
-}
+};
 
-/// Replaces the values at each pair of frequencies k and n - k by change(values, turn, k), and that
-/// at n / 2, where n is even, by middle(value). The value at 0 stays.
-template <typename Real, typename Change, typename Middle>
+/// Replaces the values at each pair of frequencies by change(pair, turn, k). The value at 0 stays;
+/// that at n / 2 is its own partner.
+template <typename Real, typename Change>
 void change_pairs(const std::vector<std::complex<Real>>& turns, Index n, std::complex<Real>* z,
-                  const Change& change, const Middle& middle) {
-  for (Index k = 1; k < n - k; ++k) {
-    const Two<Real> changed =
-        change(Two<Real>{z[k], z[n - k]}, turns[static_cast<std::size_t>(k)], k);
+                  const Change& change) {
+  for (Index k = 1; k <= n - k; ++k) {
+    const FrequencyPair<Real> changed =
+        change(FrequencyPair<Real>{z[k], z[n - k]}, turns[static_cast<std::size_t>(k)], k);
     z[k] = changed.low;
     z[n - k] = changed.high;
   }
-  if (n % 2 == 0) z[n / 2] = middle(z[n / 2]);
-}
-
-template <typename Real>
-void to_cosines(const std::vector<std::complex<Real>>& turns, Index n, std::complex<Real>* z) {
-  change_pairs(
-      turns, n, z,
-      [](const Two<Real>& values, std::complex<Real> turn, Index) {
-        return to_cosines(values, turn);
-      },
-      [](std::complex<Real> value) { return value * static_cast<Real>(1 / std::numbers::sqrt2); });
-}
-
-template <typename Real>
-void from_cosines(const std::vector<std::complex<Real>>& turns, Index n, std::complex<Real>* z) {
-  change_pairs(
-      turns, n, z,
-      [](const Two<Real>& values, std::complex<Real> turn, Index) {
-        return from_cosines(values, turn);
-      },
-      [](std::complex<Real> value) { return value * static_cast<Real>(std::numbers::sqrt2); });
 }
 
 /// Goes to cosines, multiplies the real parts by first[k] and the imaginary ones by second[k], and
@@ -95,13 +75,12 @@ void multiply_cosines(const std::vector<std::complex<Real>>& turns, Index n, con
   };
   z[0] = times_factors(z[0], 0);
   change_pairs(
-      turns, n, z,
-      [=](const Two<Real>& values, std::complex<Real> turn, Index k) {
-        const Two<Real> cosines = to_cosines(values, turn);
-        return from_cosines({times_factors(cosines.low, k), times_factors(cosines.high, n - k)},
-                            turn);
-      },
-      [=](std::complex<Real> value) { return times_factors(value, n / 2); });
+      turns, n, z, [=](const FrequencyPair<Real>& values, std::complex<Real> turn, Index k) {
+        const FrequencyPair<Real> cosines = to_cosines(values, turn);
+        return from_cosines(
+            FrequencyPair<Real>{times_factors(cosines.low, k), times_factors(cosines.high, n - k)},
+            turn);
+      });
 }
 
 /// Puts two rows into the order of the transform, as real and imaginary part: values at even places
@@ -169,7 +148,7 @@ void MirroredConvolution<Real>::rows_forward(const Real* map) {
       block.forward(0);
       block.unpack(0);
       for (Index i = 0; i < count; ++i) {
-        to_cosines(turns_x_, nx_, block.column(i));
+        change_pairs(turns_x_, nx_, block.column(i), to_cosines);
         std::copy_n(block.column(i), nx_, spectrum_.data() + (pair + i) * nx_);
       }
     }
@@ -248,7 +227,7 @@ void MirroredConvolution<Real>::rows_inverse(Real* map) {
       const Index count = std::min(together, end - pair);
       for (Index i = 0; i < count; ++i) {
         std::copy_n(spectrum_.data() + (pair + i) * nx_, nx_, block.column(i));
-        from_cosines(turns_x_, nx_, block.column(i));
+        change_pairs(turns_x_, nx_, block.column(i), from_cosines);
       }
       block.pack(0);
       block.inverse(0);

@@ -91,16 +91,11 @@ Topography mirror(Topography topography) {
 
 std::optional<Topography> scan_of_images(const Topography& topography) {
   if (!is_mirrored(topography)) return std::nullopt;
-  Topography scan;
+  Topography scan = topography;
+  lose_edges(scan);
+  scan.tiles = 1;
   scan.grid = grid_of_image(topography.grid);
   scan.height = first_image(topography.height);
-  scan.source = topography.source;
-  scan.format = topography.format;
-  scan.instrument = topography.instrument;
-  scan.channel = topography.channel;
-  scan.metadata = topography.metadata;
-  scan.history = topography.history;
-  scan.warnings = topography.warnings;
   return scan;
 }
 

@@ -24,9 +24,9 @@ struct Cells {
 /// Regions of pixels connected by their four neighbours, known by their first runs. A region is
 /// open where it reaches the border of the map; in a periodic cell there is no border: there it
 /// must connect a point with its own periodic image, and on one of the mirror images of such a cell
-/// it must reach opposite borders. Sets have offsets in a periodic cell: two
-/// paths to one pixel that differ by whole cells show that a region runs through the cell (Newman &
-/// Ziff 2001, doi:10.1103/PhysRevE.64.016706).
+/// it must reach opposite borders. Sets have offsets in a periodic cell: two paths to one pixel
+/// that differ by whole cells show that a region runs through the cell (Newman & Ziff 2001,
+/// doi:10.1103/PhysRevE.64.016706).
 template <elastic::Border border>
 class Regions {
  public:
