@@ -82,7 +82,7 @@ def test_failures_are_those_of_a_run_without_workers(folder, tmp_path_factory): 
     with concurrent.futures.ThreadPoolExecutor(1) as executor:
         for store in ("shared", "return"):
             found = study_of(folder, **changes).run(tmp_path_factory.mktemp(store), executor=executor, store=store)
-            assert found.failures == expected.failures and len(found.failures) == 4
+            assert found.failures == expected.failures and len(found.failures) == 2
             assert bytes_in(found.folder)["results.csv"] == bytes_in(expected.folder)["results.csv"]
 
 

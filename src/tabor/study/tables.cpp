@@ -7,6 +7,9 @@
 #include <algorithm>
 #include <cmath>
 #include <ctime>
+#include <map>
+#include <set>
+#include <string_view>
 #include <utility>
 
 #include "tabor/core/error.hpp"
@@ -209,15 +212,38 @@ StudyTables tables_of(const engine::Store& store, const Study& study,
 }
 
 std::vector<std::string> failures_in(const std::vector<Row>& rows) {
-  std::vector<std::string> failures;
+  struct Failure {
+    const Row& first;
+    std::set<double> pressures;
+  };
+  std::map<std::string_view, std::set<double>> pressures_of_scan;
+  std::vector<Failure> failures;
   for (const Row& row : rows) {
-    if (row.failed()) {
-      failures.push_back(
-          fmt::format("{} under {}: {}", row.scan, format_si(row.mean_pressure, "Pa"), row.error));
+    pressures_of_scan[row.scan].insert(row.mean_pressure);
+    if (!row.failed()) continue;
+    const auto same = std::find_if(failures.begin(), failures.end(), [&](const Failure& one) {
+      return one.first.scan == row.scan && one.first.error == row.error;
+    });
+    if (same != failures.end()) {
+      same->pressures.insert(row.mean_pressure);
+    } else {
+      failures.push_back({row, {row.mean_pressure}});
     }
   }
-  failures.erase(std::unique(failures.begin(), failures.end()), failures.end());
-  return failures;
+  std::vector<std::string> lines;
+  lines.reserve(failures.size());
+  for (const auto& [first, pressures] : failures) {
+    const std::string in_file = first.scan + ": ";
+    const std::string why =
+        first.error.starts_with(in_file) ? first.error.substr(in_file.size()) : first.error;
+    std::vector<std::string> some;
+    if (pressures.size() < pressures_of_scan[first.scan].size()) {
+      for (const double pressure : pressures) some.push_back(format_si(pressure, "Pa"));
+    }
+    const std::string under = some.empty() ? "" : fmt::format(" under {}", fmt::join(some, ", "));
+    lines.push_back(first.scan + under + ": " + why);
+  }
+  return lines;
 }
 
 Remarks remarks_in(const std::filesystem::path& results) {

@@ -21,7 +21,8 @@ std::vector<Row> rows_in(const engine::Store& store, const std::vector<ScanTasks
 std::vector<results::Finding> findings_in(const std::vector<Row>& rows,
                                           const std::vector<results::Case>& of_slides = {});
 
-/// Returns one line for each contact that failed: "SCAN 2000000 Pa: WHY".
+/// Returns one line for each scan and reason of a failure, "SCAN: WHY" where it failed under all
+/// pressures, else "SCAN under 2 MPa, 7 MPa: WHY".
 std::vector<std::string> failures_in(const std::vector<Row>& rows);
 
 /// Warnings and failures of a study, as results.h5 stores them.
