@@ -100,8 +100,14 @@ TEST_F(TableVerb, NamesWhatItLeavesOut) {
   EXPECT_EQ(left_out.at(0).at("mean_pressure_Pa"), 7e6);
   EXPECT_EQ(json_of(table("csv", {"--keep", "flood"})).at("numbers").size(), 4u);
   // At 0.9 g/m^2 one pressure remains: no table over pressure.
-  expect_one_line(table("abaqus"), 3, "one pressure alone (2 MPa) at 0.9 g/m^2");
+  expect_one_line(table("abaqus"), 3, "one pressure alone (2 MPa) at 0.9 g/m^2; left out: flood 1");
   EXPECT_EQ(run_tabor(table("abaqus", {"--density", "0.45g/m^2"})).code, 0);
+}
+
+TEST_F(TableVerb, LeavesOutOilThatDoesNotFit) {
+  write_results({0.2, 0.25, 0.3, 0.1}, {"", "", "", "spill-over flooded"});
+  EXPECT_EQ(json_of(table("csv")).at("left_out").at(0).at("code"), "flooded");
+  EXPECT_EQ(json_of(table("csv", {"--keep", "flooded"})).at("numbers").size(), 4u);
 }
 
 TEST_F(TableVerb, SaysWhereNothingRemains) {

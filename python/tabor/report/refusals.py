@@ -4,13 +4,13 @@ import math
 
 UNCONVERGED = "not-converged"
 OF_FLOW = ("fluid-film", "fluid-pressure", "viscosity-law", "density-law")
-CODES = (UNCONVERGED, "flood", "frictionless", "implausible-friction", *OF_FLOW)  # the gravest first
+CODES = (UNCONVERGED, "flood", "frictionless", "flooded", "implausible-friction", *OF_FLOW)  # the gravest first
 DRY, LUBRICATED, MIXED = "friction_dry", "friction_lubricated", "friction_mixed"
 KEYS = (DRY, LUBRICATED, MIXED)
 _OF_DRY = (UNCONVERGED, "implausible-friction")  # without oil no warning about the oil counts
 _OF_REST = tuple(code for code in CODES if code not in OF_FLOW)
 _OF_ONE_SCAN = ("failed", UNCONVERGED)  # the mean over the other scans stays; with any other reason it is wrong
-_SIGNS = "†‡§¶‖#◊※"
+_SIGNS = "†‡§¶‖#◊※&"
 _DENSITY, _PRESSURE, _SPEED = "lubricant_density_g_per_m2", "mean_pressure_Pa", "sliding_speed_m_per_s"
 
 

@@ -91,18 +91,23 @@ FrictionTable complete_rows(FrictionTable table) {
   return table;
 }
 
-void require_two_pressures(const DensityLayer& layer) {
+void require_two_pressures(const DensityLayer& layer, const std::string& left_out) {
   if (layer.rows.size() > 1) return;
   throw InputError("friction table",
-                   fmt::format("one pressure alone ({}) at {} g/m^2",
+                   fmt::format("one pressure alone ({}) at {} g/m^2{}",
                                format_si(layer.rows.front().mean_pressure, "Pa"),
-                               in_g_per_m2(layer.lubricant_density)),
+                               in_g_per_m2(layer.lubricant_density),
+                               left_out.empty() ? "" : "; left out: " + left_out),
                    "two pressures or more at each density",
-                   "compute more pressures, choose others by <density>, or write <for=csv>");
+                   left_out.empty()
+                       ? "compute more pressures, choose others by <density>, or write <for=csv>"
+                       : "compute more pressures, <keep> what is left out, or write <for=csv>");
 }
 
 void require_two_pressures(const FrictionTable& table) {
-  for (const DensityLayer& layer : layers_of(table)) require_two_pressures(layer);
+  for (const DensityLayer& layer : layers_of(table)) {
+    require_two_pressures(layer, reasons_of(table));
+  }
 }
 
 }  // namespace tabor::forming

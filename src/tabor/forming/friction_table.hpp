@@ -73,8 +73,8 @@ std::string reasons_for_fewer_scans(const FrictionTable& table);
 FrictionTable complete_rows(FrictionTable table);
 
 /// Throw InputError unless there are two pressures or more at this density, or at each: one gives
-/// no table over pressure.
-void require_two_pressures(const DensityLayer& layer);
+/// no table over pressure. `left_out` says why others are not in it.
+void require_two_pressures(const DensityLayer& layer, const std::string& left_out = "");
 void require_two_pressures(const FrictionTable& table);
 
 }  // namespace tabor::forming

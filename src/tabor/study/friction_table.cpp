@@ -184,7 +184,7 @@ void add_mean(const std::vector<FrictionNumber>& numbers, const std::vector<std:
 
 const std::vector<std::string>& untrusted_codes() {
   static const std::vector<std::string> codes = {
-      "not-converged", "flood",          "frictionless",  "implausible-friction",
+      "not-converged", "flood",          "frictionless",  "flooded",    "implausible-friction",
       "fluid-film",    "fluid-pressure", "viscosity-law", "density-law"};
   return codes;
 }
