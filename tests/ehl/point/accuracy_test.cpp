@@ -43,6 +43,21 @@ TEST(PointGridError, IsWithinAFactorOfTwoOfThatOfFinerGrids) {
   }
 }
 
+TEST(PointGridError, IsWithinAFactorOfTwoWhereTheOilThins) {
+  PointProblem problem = moes_case(1500, 13, 97);
+  problem.lubricant.shear = material::ree_eyring_shear(6.8e6);
+  problem.sliding_speed = 2 * problem.entrainment_speed;
+  const double fine = film_of(with_nodes(problem, 193));
+  const double finest = film_of(with_nodes(problem, 257));
+  const double limit = finest + (finest - fine) * 9 / 7;
+  for (const Index nodes : {97, 129, 193}) {
+    const PointProblem coarse = with_nodes(problem, nodes);
+    const double error = 1 - film_of(coarse) / limit;
+    EXPECT_GT(point_grid_error(coarse), error / 2) << nodes;
+    EXPECT_LT(point_grid_error(coarse), error * 2) << nodes;
+  }
+}
+
 /// The domain in half axes, 1.5 to 1, with nodes of one spacing.
 PointProblem on_domain(double M, double half_width) {
   PointProblem problem = moes_case(M, 0, 0);

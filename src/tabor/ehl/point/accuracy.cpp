@@ -71,7 +71,11 @@ struct Scales {
 };
 
 double grid_coefficient(const PointProblem& problem) {
-  return std::min(0.2, 0.09 + 0.022 * film_groups_of(problem).moes_viscosity());
+  const double newtonian = std::min(0.2, 0.09 + 0.022 * film_groups_of(problem).moes_viscosity());
+  const bool is_newtonian =
+      material::law_of(problem.lubricant.shear) == material::ShearLaw::newtonian;
+  const bool thins = !is_newtonian && problem.sliding_speed != 0;
+  return (thins ? 2.5 : 1) * newtonian;
 }
 
 }  // namespace
