@@ -15,6 +15,7 @@ using test::json_of;
 using test::Outcome;
 using test::run_tabor;
 using testing::HasSubstr;
+using testing::Not;
 
 std::vector<std::string> quick(const std::vector<std::string>& more = {}) {
   std::vector<std::string> words = {"ehl", "line",
@@ -281,6 +282,29 @@ TEST(EhlLine, GivesNoFrictionThatNoOilHas) {  // slow
   EXPECT_TRUE(json["friction_coefficient"].is_null());
   EXPECT_TRUE(json["max_shear_stress_Pa"].is_null());
   EXPECT_THAT(io::to_text(json["warnings"]), HasSubstr("newtonian-shear"));
+  EXPECT_THAT(io::to_text(json["warnings"]), Not(HasSubstr("eyring_stress")));  // no key of a line
+}
+
+TEST(EhlLine, WarnsOfAnInletThatStarvesTheContact) {
+  const auto warnings_with = [](const std::string& inlet) {
+    return io::to_text(
+        json_of(quick({"--set", "grid.inlet=" + inlet, "--set", "grid.nodes=1200"}))["warnings"]);
+  };
+  EXPECT_THAT(warnings_with("130um"), HasSubstr("short-inlet"));
+  EXPECT_THAT(warnings_with("500um"), Not(HasSubstr("short-inlet")));
+}
+
+TEST(EhlLine, RejectsAGridForWhichThereIsNoMemory) {
+  const Outcome outcome = run_tabor(quick({"--set", "grid.nodes=1000000000"}));
+  EXPECT_EQ(outcome.code, 3);
+  EXPECT_THAT(outcome.err, HasSubstr("grid.nodes: got 1000000000 nodes, which take"));
+  EXPECT_THAT(outcome.err, HasSubstr("take fewer nodes"));
+}
+
+TEST(EhlLine, ChoosesNoDomain) {
+  const Outcome outcome = run_tabor(quick({"--domain", "auto"}));
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("only 'tabor ehl point' chooses its domain"));
 }
 
 TEST(EhlLine, RejectsAsperitiesThatMakeNoSense) {

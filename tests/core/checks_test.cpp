@@ -28,10 +28,10 @@ TEST(CheckMemory, SaysHowMuchIsNeededAndHowMuchIsFree) {
     check_memory("map", "10000000 x 10000000 pixels", 8e14, "take fewer");
     FAIL();
   } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), testing::MatchesRegex(
-                                  "map: got 10000000 x 10000000 pixels, which take 8e\\+05 GB; "
-                                  "expected a map that fits into the [0-9.]+ GB of free memory; "
-                                  "take fewer"));
+    EXPECT_THAT(error.what(),
+                testing::MatchesRegex("map: got 10000000 x 10000000 pixels, which take 8e\\+05 GB; "
+                                      "expected what fits into the [0-9.]+ GB of free memory; "
+                                      "take fewer"));
   }
 }
 

@@ -29,6 +29,7 @@ struct Request {
   std::optional<std::string> study;
   std::optional<std::string> output;
   bool wants_template = false;
+  bool chooses_domain = false;
   RunRequest run;
   CsvRequest csv;
 };
@@ -119,6 +120,9 @@ int run(const Request& request, Context& context) {
   if (request.wants_template) {
     return show_template(case_template(find_program(request.program)), context);
   }
+  if (request.chooses_domain && request.program != "point") {
+    throw UsageError("--domain: only 'tabor ehl point' chooses its domain");
+  }
   FilmSweep sweep{find_program(request.program),
                   request.file,
                   io::Config::read(request.file),
@@ -172,6 +176,7 @@ void declare_options(OptionSet& set, Request& request) {
            .words = {"auto"},
            .assign = [&](const std::string& text) {
              if (text != "auto") throw UsageError("--domain: got '" + text + "'; expected auto");
+             request.chooses_domain = true;
              request.axes.push_back(parse_axis("grid.domain=auto"));
            }});
   set.text("--study", "grid|domain|time-step",

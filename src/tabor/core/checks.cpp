@@ -33,9 +33,9 @@ void check_memory(const std::string& what, const std::string& got, double bytes,
   if (bytes < kAlwaysFree) return;
   const auto available = static_cast<double>(available_memory_bytes());
   if (available == 0 || bytes <= available) return;
-  throw InputError(
-      what, fmt::format("{}, which take {:.2g} GB", got, bytes * 1e-9),
-      fmt::format("a map that fits into the {:.2g} GB of free memory", available * 1e-9), remedy);
+  throw InputError(what, fmt::format("{}, which take {:.2g} GB", got, bytes * 1e-9),
+                   fmt::format("what fits into the {:.2g} GB of free memory", available * 1e-9),
+                   remedy);
 }
 
 }  // namespace tabor

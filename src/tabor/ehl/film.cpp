@@ -1,5 +1,7 @@
 #include "tabor/ehl/film.hpp"
 
+#include <fmt/format.h>
+
 #include "tabor/core/types.hpp"
 
 namespace tabor::ehl {
@@ -19,6 +21,14 @@ material::Lubricant with_share_of_coefficient(material::Lubricant lubricant, dou
       material::make_viscosity(material::law_of(viscosity), material::ambient_viscosity(viscosity),
                                share * material::pressure_coefficient(viscosity));
   return lubricant;
+}
+
+Warning short_inlet(double lengths) {
+  return {"short-inlet",
+          fmt::format("The inlet is only {:.2g} lengths sqrt(2 R h) long, so the film may starve. "
+                      "Use 4 or more",
+                      lengths),
+          1 / lengths};
 }
 
 }  // namespace tabor::ehl

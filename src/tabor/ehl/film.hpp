@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 
+#include "tabor/core/warning.hpp"
 #include "tabor/material/lubricant.hpp"
 
 /// What the films of all programs have in common.
@@ -12,5 +13,8 @@ double smallest_film(const Eigen::ArrayXd& film);
 
 /// The liquid with a share of its pressure-viscosity coefficient; 0: pressure does not thicken it.
 material::Lubricant with_share_of_coefficient(material::Lubricant lubricant, double share);
+
+/// The warning about an inlet that is so many lengths sqrt(2 R h) longer than the dry contact.
+Warning short_inlet(double lengths);
 
 }  // namespace tabor::ehl

@@ -14,14 +14,14 @@ namespace {
 
 /// A warning where a Newtonian film is sheared at `stress` [Pa] under `pressure` [Pa].
 std::optional<Warning> sheared_too_hard(const material::Shear& shear, double stress,
-                                        double pressure) {
+                                        double pressure, const std::string& remedy) {
   const bool is_newtonian = material::law_of(shear) == material::ShearLaw::newtonian;
   const double ratio = std::abs(stress) / pressure;
   if (!is_newtonian || !(ratio > kYieldRatio)) return std::nullopt;
   return Warning{"newtonian-shear",
                  fmt::format("A Newtonian film would have a shear stress of {}, {} times its "
-                             "pressure. Give lubricant.eyring_stress",
-                             si(stress, "Pa"), plain(ratio, 2)),
+                             "pressure. {}",
+                             si(stress, "Pa"), plain(ratio, 2), remedy),
                  ratio};
 }
 
@@ -38,10 +38,11 @@ std::optional<Warning> frictionless(const Asperities& asperities, double load_sh
 }  // namespace
 
 Warnings void_friction(const material::Shear& shear, const Asperities& asperities,
-                       const FilmFriction& friction) {
+                       const FilmFriction& friction, const std::string& remedy) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   Warnings warnings;
-  const auto stress = sheared_too_hard(shear, friction.max_shear_stress, friction.max_pressure);
+  const auto stress =
+      sheared_too_hard(shear, friction.max_shear_stress, friction.max_pressure, remedy);
   if (stress) {
     warnings.push_back(*stress);
     friction.fluid = friction.max_shear_stress = none;

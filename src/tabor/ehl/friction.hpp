@@ -27,7 +27,9 @@ struct FilmFriction {
 /// Takes away (NaN) the friction of a film whose stress knows no limit where it is sheared harder
 /// than oils can be, and that of the whole contact where solids carry load and the case says
 /// nothing about their friction. Returns why.
+/// `remedy` says what to do about such a film.
 Warnings void_friction(const material::Shear& shear, const Asperities& asperities,
-                       const FilmFriction& friction);
+                       const FilmFriction& friction,
+                       const std::string& remedy = "Give lubricant.eyring_stress");
 
 }  // namespace tabor::ehl

@@ -54,7 +54,8 @@ Warnings void_friction(const LineProblem& problem, LineResult& result) {
                                           .max_shear_stress = result.max_shear_stress,
                                           .fluid = result.friction_fluid,
                                           .solid = result.friction_solid,
-                                          .coefficient = result.friction_coefficient});
+                                          .coefficient = result.friction_coefficient},
+                                         "No other law is known here: no friction is given");
   if (!warnings.empty()) result.friction_force = result.friction_coefficient * problem.load;
   if (std::isnan(result.max_shear_stress)) {
     result.shear_stress.setConstant(kNone);

@@ -12,6 +12,7 @@ namespace tabor::ehl {
 namespace {
 
 constexpr double kFewestInletNodes = 0.1;
+constexpr double kInletLengths = 4;  // sqrt(2 R h) before the contact: less may starve it
 /// Rounding may leave a trace of pressure in the cavity: the film ends before it.
 constexpr double kFilmEnd = 1e-6;
 constexpr double kSharp =
@@ -64,6 +65,9 @@ Warnings warnings_of(const LineProblem& problem, const LineResult& result) {
                      nodes, 3 / nodes),
          1 / nodes});
   }
+  const double half_width = hertz_of(problem).half_width;
+  const double inlet = (-result.x[0] - half_width) / std::sqrt(2 * problem.radius * film);
+  if (inlet < kInletLengths) warnings.push_back(short_inlet(inlet));
   return warnings;
 }
 

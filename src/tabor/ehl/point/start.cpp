@@ -69,13 +69,7 @@ Warnings warnings_of(const PointProblem& problem, const PointResult& result) {
   const double length =
       std::sqrt(2 * problem.radius_x * film_groups_of(problem).nijenbanning_central());
   const double inlet = (problem.inlet - 1) * half_axis / length;
-  if (inlet < kInletLengths && !(on_domain > kLargeError)) {
-    warnings.push_back({"short-inlet",
-                        fmt::format("The inlet is only {:.2g} lengths sqrt(2 R h) long, so the "
-                                    "film may starve. Use 4 or more",
-                                    inlet),
-                        1 / inlet});
-  }
+  if (inlet < kInletLengths && !(on_domain > kLargeError)) warnings.push_back(short_inlet(inlet));
   const Index nx = result.grid.nx;
   if (result.pressure.col(nx - 2).maxCoeff() > 0) {
     warnings.push_back(
