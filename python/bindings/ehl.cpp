@@ -212,13 +212,14 @@ std::vector<ColumnRow> columns_of(const Swept& swept) {
   return rows;
 }
 
-/// (numbers as JSON, converged, warnings)
-using CaseRow = std::tuple<std::string, bool, ShownWarnings>;
+/// (numbers as JSON, status, why it was rejected, warnings)
+using CaseRow = std::tuple<std::string, std::string, std::string, ShownWarnings>;
 std::vector<CaseRow> cases_of(const Swept& swept) {
   std::vector<CaseRow> rows;
   rows.reserve(swept.sweep.results.size());
   for (const ehl::CaseResult& one : swept.sweep.results) {
-    rows.emplace_back(io::to_text(io::json_of(one.numbers)), one.converged(), shown(one.warnings));
+    rows.emplace_back(io::to_text(io::json_of(one.numbers)),
+                      std::string(ehl::kCaseStatus.of(one.status)), one.error, shown(one.warnings));
   }
   return rows;
 }

@@ -7,6 +7,7 @@ from typing import Any
 
 from . import _tabor
 from ._arguments import path, wrong
+from ._errors import require_file
 from ._study import Results
 
 
@@ -25,7 +26,7 @@ def cite(*results: Any) -> str:
     Raises
     ------
     ValueError
-        For a file that tabor has not written.
+        For a file that is not there (InputFileNotFound) or that tabor has not written.
     TypeError
         For what is no result.
 
@@ -43,7 +44,8 @@ def cite(*results: Any) -> str:
         if isinstance(one, Results):
             files.append(os.fspath(one.folder / "results.h5"))
         elif isinstance(one, (str, os.PathLike)):
-            files.append(os.fspath(path(one, "results")))
+            require_file(path(one, "results"))
+            files.append(os.fspath(one))
         elif hasattr(one, "references"):
             keys += one.references
         else:

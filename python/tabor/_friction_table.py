@@ -10,6 +10,7 @@ from typing import Any, Literal, NamedTuple
 from . import _tabor
 from ._arguments import Count, Path, typed, whole
 from ._cases import table_to_xarray
+from ._errors import require_file
 from ._values import Value, si_list
 
 
@@ -48,6 +49,7 @@ class FrictionTable:
     def __init__(self, results: Path, *, group: str | None = None,
                  density: Value | Iterable[Value] | None = None, keep: Sequence[str] = ()) -> None:
         densities = [] if density is None else si_list(density, "areal_density", "density")[0]
+        require_file(results)
         self._results = os.fspath(results)
         self._choice = _tabor.FrictionTableChoice(group, densities, list(keep))
         rows, self.left_out = _tabor.friction_table(self._results, self._choice)

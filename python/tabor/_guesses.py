@@ -164,6 +164,12 @@ class Named(metaclass=_Named):
     def __getattr__(self, name: str) -> Any:
         if name.startswith("_"):  # protocols of NumPy, copy and notebooks ask for many
             raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}", name=name, obj=self)
+        try:
+            is_value = name in object.__getattribute__(self, "values")
+        except (AttributeError, TypeError):
+            is_value = False
+        if is_value:
+            raise AttributeError(f"{type(self).__name__} has no {name!r}; its number is values[{name!r}]", name=name, obj=self)
         raise _missing(type(self), name, dir(self))
 
 

@@ -11,6 +11,7 @@ import sys
 from typing import Any, Literal, NamedTuple
 
 from ._arguments import Count, Path, path, typed, wrong
+from ._errors import InputError, require_file
 from ._optional import needs_all
 from ._records import Record
 from ._save import save
@@ -55,7 +56,8 @@ def _file_of(result: Any, out: Path | None) -> pathlib.Path:
     if isinstance(result, Results):
         return result.folder
     if isinstance(result, (str, os.PathLike)):
-        return pathlib.Path(path(result, "result"))
+        require_file(path(result, "result"))
+        return pathlib.Path(result)
     if not isinstance(result, (Record, Solution, Sweep, list, tuple)):
         raise wrong("result", result, "results, or a file or folder of them")
     if out is None:
@@ -77,7 +79,7 @@ def _made(arguments: dict[str, Any]) -> list[str]:
         raise RuntimeError(f"report: the drawing program ended with {done.returncode}: {done.stderr.strip()[-300:]}")
     answer = json.loads(done.stdout.splitlines()[-1])
     if "error" in answer:
-        raise (OSError if answer["code"] == _CANNOT_WRITE else ValueError)(answer["error"])
+        raise (OSError if answer["code"] == _CANNOT_WRITE else InputError)(answer["error"])
     files: list[str] = answer["files"]
     return files
 

@@ -17,6 +17,9 @@ from ._optional import needs
 from ._records import Shown, Warning, said, warnings_of
 
 
+_CONVERGED, _REJECTED = "converged", "rejected"
+
+
 class Limit(NamedTuple):
     """What a number tends to on ever finer grids, by the three finest (Richardson); NaN where they show no limit."""
 
@@ -29,7 +32,7 @@ class Sweep(Shown):
     change."""
 
     axes: Mapping[str, tuple[Any, ...]]  #: keys of the case with their values, SI; words as they are
-    rows: tuple[Mapping[str, Any], ...]  #: one for each case: its values and numbers, ``converged``, ``warnings``
+    rows: tuple[Mapping[str, Any], ...]  #: one for each case: its values and numbers, ``converged``, ``warnings``; a rejected one has ``status`` and ``error``
     columns: tuple[tuple[str, str, str], ...]  #: (key, heading, unit) of the numbers that say most
     limits: Mapping[str, Limit]  #: of the columns, where one key was varied that refines the grid
     warnings: tuple[Warning, ...]  #: reasons to doubt them, each said once
@@ -40,10 +43,11 @@ class Sweep(Shown):
     def __init__(self, swept: _tabor.SweptCases, given: Mapping[str, list[Any]], references: tuple[str, ...]) -> None:
         axes = {key: tuple(given[key] if any(map(_is_word, given.get(key, ()))) else numbers)
                 for key, numbers in swept.axes}
-        cases = [(json.loads(text), converged, warnings_of(warnings)) for text, converged, warnings in swept.cases]
+        cases = [({**json.loads(text), "converged": status == _CONVERGED, **({"status": status, "error": error} if status == _REJECTED else {})},
+                  warnings_of(warnings)) for text, status, error, warnings in swept.cases]
         places = np.ndindex(*(len(values) for values in axes.values()))
-        rows = tuple({**{key: axes[key][i] for key, i in zip(axes, place)}, **values, "converged": converged,
-                      "warnings": warnings} for place, (values, converged, warnings) in zip(places, cases))
+        rows = tuple({**{key: axes[key][i] for key, i in zip(axes, place)}, **values, "warnings": warnings}
+                     for place, (values, warnings) in zip(places, cases))
         limits = {key: Limit(*limit) for (key, _, _), limit in zip(swept.columns, swept.limits)}
         self.__dict__.update(axes=axes, rows=rows, columns=tuple(swept.columns), limits=limits, warnings=warnings_of(swept.warnings),
                              references=references, n_computed=swept.n_computed, _swept=swept,

@@ -227,9 +227,11 @@ class Case(Named):
     def _swept(self, swept: _tabor.SweptCases, given: Mapping[str, list[Any]], check: bool) -> Sweep:
         found = Sweep(swept, given, tuple(_tabor.case_references(self._case)))
         if check and not found.converged:
-            bad = sum(not row["converged"] for row in found.rows)
-            raise NotConverged(f"ehl {self.program}: {bad} of {len(found.rows)} films do not converge; check=False "
-                               "returns all the same", found)
+            errors = [row["error"] for row in found.rows if "error" in row]
+            bad = sum(not row["converged"] for row in found.rows) - len(errors)
+            met = [*([f"{bad} of {len(found.rows)} films do not converge"] if bad else []),
+                   *([f"{len(errors)} of {len(found.rows)} cases {'is' if len(errors) == 1 else 'are'} invalid ({errors[0]})"] if errors else [])]
+            raise NotConverged(f"ehl {self.program}: {', '.join(met)}; check=False returns the others", found)
         tell(found.warnings)
         return found
 

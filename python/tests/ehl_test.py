@@ -183,6 +183,15 @@ def test_a_sweep_is_saved_as_on_the_command_line(program, case, tmp_path):
         found.save(tmp_path / "no" / "folder.h5")
 
 
+def test_a_sweep_says_why_a_case_is_invalid(case):
+    speeds = {"motion.speed": [-1, 1]}
+    with pytest.raises(tb.NotConverged, match=r"1 of 2 cases is invalid \(.*motion.speed: got -1 m/s.*\); check=False"):
+        case.sweep(speeds)
+    bad, good = case.sweep(speeds, check=False).rows
+    assert bad["status"] == "rejected" and "above zero" in bad["error"] and not bad["converged"]
+    assert good["converged"] and "error" not in good
+
+
 @pytest.fixture(scope="module")
 def fine():
     return tb.ehl.point(tb.ehl.template("point"), **{"grid.nodes": 65})

@@ -72,8 +72,9 @@ def test_figures_of_the_user_stay_as_they_are(pressed, tmp_path):
 def test_what_cannot_be_reported_is_refused(pressed, tmp_path):
     with pytest.raises(ValueError, match="give out, the folder to write to"):
         tb.report(pressed)
-    with pytest.raises(ValueError, match="no such file"):
-        tb.report(tmp_path / "none.h5")
+    for of_file in (tb.report, tb.cite, tb.FrictionTable):
+        with pytest.raises(tb.InputFileNotFound, match=r"none\.h5: no such file"):
+            of_file(tmp_path / "none.h5")
     with pytest.raises(TypeError, match="result: got int"):
         tb.report(7)
     with pytest.raises(ValueError, match="error_bar: got 'all'"):
