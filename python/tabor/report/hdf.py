@@ -42,7 +42,7 @@ def _begins_as_hdf5(path):
 def _no_result(path):
     return InputError(
         f"{path}: got a file that is no result of tabor; expected the folder of a 'tabor sweep' or a file written with -o; "
-        f"of a scan, 'tabor friction {Path(path).name} ... -o result.h5' makes one"
+        "of a scan, 'tabor friction SCAN ... -o result.h5' makes one"
     )
 
 

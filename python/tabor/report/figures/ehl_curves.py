@@ -128,9 +128,6 @@ def _map(node, keys, plane, label):
     figure, ((axes,),) = style.new_figure(3.6, width=5.6)
     (y, y_label), (x, x_label) = (_scaled_axis(node, key) for key in keys)
     mesh = axes.contourf(x, y, plane, levels=16, cmap="viridis")
-    if np.nanmax(plane) > np.nanmin(plane):
-        lines = axes.contour(x, y, plane, levels=8, colors="white", linewidths=0.6)
-        axes.clabel(lines, fontsize=7, fmt="%.3g")
     figure.colorbar(mesh, ax=axes).set_label(label)
     for set_scale, side, values in ((axes.set_yscale, axes.yaxis, y), (axes.set_xscale, axes.xaxis, x)):
         set_scale(_scale(values))
@@ -138,7 +135,21 @@ def _map(node, keys, plane, label):
             style.log_axis(side)
     axes.set_ylabel(y_label)
     axes.set_xlabel(x_label)
+    if np.nanmax(plane) > np.nanmin(plane):
+        lines = axes.contour(x, y, plane, levels=8, colors="white", linewidths=0.6)
+        _label(lines, axes)
     return figure
+
+
+def _label(lines, axes):
+    """Writes values on contour lines, where they lie whole within the axes."""
+    labels = axes.clabel(lines, fontsize=7, fmt="%.3g")
+    axes.figure.canvas.draw()
+    frame = axes.get_window_extent()
+    for one in list(labels):
+        box = one.get_window_extent()
+        if not (frame.contains(*box.min) and frame.contains(*box.max)):
+            one.remove()
 
 
 def _scale(values):

@@ -124,9 +124,9 @@ def _film(source, history):
 
 
 def _shown_rows(times, history):
-    """Rows at about equal times while the ball carries at least a thousandth of the largest force."""
+    """Rows at about equal times while the ball carries at least a thousandth of the largest force, as far as there are profiles."""
     loaded = history["time"][history["force"] > 1e-3 * history["force"].max()]
-    wanted = np.linspace(loaded[0], loaded[-1], N_PROFILES + 2)[1:-1]
+    wanted = np.linspace(max(loaded[0], times[0]), min(loaded[-1], times[-1]), N_PROFILES + 2)[1:-1]
     return sorted({int(np.argmin(np.abs(times - time))) for time in wanted})
 
 

@@ -95,12 +95,14 @@ class _Contact:
 
 
 def _half_axes(source):
-    """Of the dry contact [m], as far as the pressure of Hertz reaches on the centre lines."""
+    """Of the dry contact [m], where the pressure of Hertz, p0 sqrt(1 - x^2/a^2), ends on the centre lines."""
     axes = []
     for group in ("along", "across"):
-        curves = source.curves(group)
-        inside = np.abs(curves["place"][curves["hertz_pressure"] > 0])
-        axes.append(inside.max() + 0.5 * (curves["place"][1] - curves["place"][0]))
+        place, pressure = (source.curves(group)[name] for name in ("place", "hertz_pressure"))
+        top = int(np.argmax(pressure))
+        outer = int(np.argmax(np.where(pressure > 0, np.abs(place), -1)))
+        x2, p2 = place[[top, outer]] ** 2, pressure[[top, outer]] ** 2
+        axes.append(np.sqrt((x2[1] * p2[0] - x2[0] * p2[1]) / (p2[0] - p2[1])))
     return axes
 
 
