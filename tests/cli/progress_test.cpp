@@ -102,6 +102,18 @@ TEST(TimeLeft, IsNotToldFromAShareThatJumps) {
   EXPECT_FALSE(was_told);
 }
 
+TEST(TimeLeft, OfAContinuedRunCountsFromWhereItGoesOn) {
+  TimeLeft left;
+  for (double now = 2; now < 50;
+       now += 0.1) {  // 40 % are there after two seconds, the rest takes 60
+    const auto told = left.at(now, 0.4 + 0.6 * (now - 2) / 60);
+    if (std::abs(now - 7.1) > 0.15) {
+      EXPECT_EQ(told.has_value(), now > 7.1) << now;
+    }
+    EXPECT_NEAR(told.value_or(62 - now), 62 - now, 1e-6);
+  }
+}
+
 TEST(TimeLeft, IsSilentWithoutAShare) {
   TimeLeft left;
   for (double now = 0; now < 60; now += 1) {

@@ -19,9 +19,20 @@ constexpr double kAlwaysWithin = 5;   // [s] that nobody minds
 }  // namespace
 
 std::optional<double> TimeLeft::at(double now, double share) {
+  if (!is_told_share_ && !std::isnan(share)) {
+    is_told_share_ = true;
+    if (share >= kLeastShare) {  // work of an earlier run says nothing about the time of this one
+      share_before_ = share;
+      start_ = now;
+    }
+  }
   const double gone = now - start_;
-  if (!(share >= kLeastShare) || share >= 1 || gone < kLeastTime) return std::nullopt;
-  const double left = gone * (1 - share) / share;
+  const double done = share - share_before_;
+  if (!(done >= kLeastShare * (1 - share_before_)) || share >= 1 || gone < kLeastTime) {
+    end_.reset();
+    return std::nullopt;
+  }
+  const double left = gone * (1 - share) / done;
   if (!end_) {
     end_ = now + left;
     known_since_ = last_ = now;

@@ -19,6 +19,8 @@ class TimeLeft {
 
  private:
   double start_;
+  bool is_told_share_ = false;
+  double share_before_ = 0;         ///< done by an earlier run that this one continues
   double last_ = 0;                 ///< [s] when the end was estimated last
   double known_since_ = 0;          ///< [s]
   std::optional<double> end_ = {};  ///< [s] mean of the last seconds' estimates
