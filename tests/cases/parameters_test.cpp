@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <limits>
 #include <set>
 
 #include "tabor/core/text.hpp"
@@ -88,6 +89,8 @@ TEST(ObjectionToBounds, NamesTheSettingAndWhatIsExpected) {
   ASSERT_TRUE(found);
   EXPECT_EQ(found->setting, "droplet_height");
   EXPECT_EQ(found->expected, "more than zero");
+  film.droplet_height = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(objection_to_bounds(film_parameters(), film)->expected, "more than zero, and finite");
 }
 
 }  // namespace

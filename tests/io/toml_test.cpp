@@ -116,6 +116,10 @@ TEST(Config, TakesNewValuesWithoutChangingTheOld) {
   EXPECT_EQ(changed.quantity("material.youngs_modulus", dimension::pressure), 1e9);
   EXPECT_EQ(changed.number("new.table"), 1.5);
   EXPECT_THROW(old.with("title.part", "1"), InputError);
+  EXPECT_THAT(message_of([] {
+                Config::parse("[[scan]]\nfile = \"a\"\n", "s.toml").with("scan.file", "b");
+              }),
+              HasSubstr("'scan' is a list of tables"));
 }
 
 TEST(Config, TextReadsBackToTheSameValues) {

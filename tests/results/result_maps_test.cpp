@@ -105,7 +105,8 @@ TEST(ResultMaps, HaveNoDisplacementOnASurfaceThatIsNotInTheFile) {
   Sample().write(folder / "a.h5", 2, {}, "load_path = true\n");
   const ResultMaps maps = maps_of(folder / "a.h5");
   EXPECT_EQ(rejection_of(maps, {.field = "displacement", .state = 0}), "");
-  EXPECT_THAT(rejection_of(maps, {.field = "displacement", .state = 1}), HasSubstr("got 'disp"));
+  EXPECT_THAT(rejection_of(maps, {.field = "displacement", .state = 1}),
+              HasSubstr("got 1, which has no map 'displacement'; expected one of 0"));
 }
 
 TEST(ResultMaps, NeedAFileWithMaps) {

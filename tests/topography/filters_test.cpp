@@ -207,10 +207,13 @@ TEST(Filters, WarningACutoffThatDoesNothingOrEverything) {
   const auto rough = noise(kGrid);
   EXPECT_TRUE(low_pass(rough, parse_filter("gauss:8um")).warnings.empty());
   EXPECT_TRUE(low_pass(rough, parse_filter("hann:512/L")).warnings.empty());
-  EXPECT_THAT(texts_of(low_pass(rough, parse_filter("gauss:1.5um")).warnings),
-              testing::ElementsAre(HasSubstr("below two pixels")));
+  EXPECT_THAT(
+      texts_of(low_pass(rough, parse_filter("gauss:1.5um")).warnings),
+      testing::ElementsAre(HasSubstr("below two pixels (2 µm), so it changes almost nothing")));
+  EXPECT_THAT(texts_of(high_pass(rough, parse_filter("gauss:1.5um")).warnings),
+              testing::ElementsAre(HasSubstr("so it leaves almost nothing")));
   EXPECT_THAT(texts_of(high_pass(rough, parse_filter("gauss:90um")).warnings),
-              testing::ElementsAre(HasSubstr("longer than the scan")));
+              testing::ElementsAre(HasSubstr("so little more than the mean is removed")));
   EXPECT_THAT(texts_of(low_pass(rough, parse_filter("hann:0.5/L")).warnings),
               testing::ElementsAre(HasSubstr("longer than the scan")));
 }

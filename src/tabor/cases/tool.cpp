@@ -1,6 +1,7 @@
 #include "tabor/cases/tool.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 #include <utility>
@@ -195,7 +196,10 @@ void find_tool(ToolSettings& settings, const std::filesystem::path& folder) {
   settings.folder = folder;
   const bool is_there = std::filesystem::exists(settings.file());
   if (!is_there && settings.tool->find(':') != std::string::npos) {
-    synthesis::parse_recipe(*settings.tool);  // throws: it names no generator
+    throw InputError("<tool>", "'" + *settings.tool + "', which is no file and no generator",
+                     fmt::format("a scan file or one of {}, such as ground:Sa=0.1um",
+                                 fmt::join(synthesis::recipe_kinds(true), ", ")),
+                     "");
   }
   settings.sha256 = io::sha256_of_file(settings.file());
 }

@@ -94,11 +94,12 @@ void warn_of_load_on_seams(const topography::Topography& surface, const contact:
   const bool is_bent =
       std::any_of(surface.history.begin(), surface.history.end(),
                   [](const std::string& step) { return step.starts_with("level=poly"); });
-  list.push_back({"seam-load",
-                  fmt::format("Heights rise at the mirror seams: strips {1:.0f} % of a side wide "
-                              "carry {0:.3g} % of the load; {2} helps",
-                              100 * share, 100 * kEdgeBand, is_bent ? "<crop>" : "<level=poly2>"),
-                  share});
+  list.push_back(
+      {"seam-load",
+       fmt::format("Heights rise at the mirror seams: strips {1:.0f} % of a side wide "
+                   "carry {0:.3g} % of the load; try {2}",
+                   100 * share, 100 * kEdgeBand, is_bent ? "<crop>" : "<level=poly2> or <crop>"),
+       share});
 }
 
 void warn_of_bound(const ContactSettings& settings, const contact::Summary& summary,

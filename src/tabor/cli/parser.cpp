@@ -1,9 +1,11 @@
 // Tells options, values and positional words apart; what a value means is the business of the
 // Option that takes it.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cctype>
+#include <filesystem>
 #include <set>
 #include <utility>
 
@@ -88,7 +90,13 @@ class WordSorter {
   std::string value_after(const Option& option) {
     const bool has_word = next_ < words_.size() && !is_option(words_[next_]);
     if (!option.if_bare.empty()) {
-      return has_word && names_file_of(option, words_[next_]) ? words_[next_++] : option.if_bare;
+      if (has_word && names_file_of(option, words_[next_])) return words_[next_++];
+      if (has_word && !filled_.empty() && !std::filesystem::exists(words_[next_])) {
+        throw InputError(
+            option.flag, "'" + words_[next_] + "'",
+            fmt::format("a name that ends in {}", fmt::join(option.extensions, " or ")), "");
+      }
+      return option.if_bare;
     }
     if (!has_word) reject(fmt::format("{}: {} is missing", option.flag, option.placeholder));
     return words_[next_++];
@@ -97,7 +105,7 @@ class WordSorter {
   void take_positional(const std::string& word) {
     for (const Option& option : set_.options()) {
       if (!option.is_positional()) continue;
-      if (!option.repeatable && !filled_.insert(&option).second) continue;
+      if (!filled_.insert(&option).second && !option.repeatable) continue;
       given_.push_back({&option, word});
       return;
     }
@@ -109,7 +117,7 @@ class WordSorter {
   const std::vector<std::string>& words_;
   std::size_t next_ = 0;
   std::vector<Given> given_;
-  std::set<const Option*> filled_;  // positional ones that take a single word
+  std::set<const Option*> filled_;  // positional ones that have a word
 };
 
 bool is_given(const std::string& flag, const std::vector<Given>& given) {

@@ -77,7 +77,11 @@ void take_wear(Option& option, cases::SlideSettings& sliding) {
   static constexpr std::string_view law = "archard:";
   option.help += "; archard:K is near, with the wear coefficient K";
   option.assign = [&sliding, of_word = option.assign](const std::string& value) {
-    if (!value.starts_with(law)) return of_word(value);
+    if (!value.starts_with(law)) {
+      if (sliding::kDisplaced.find(value)) return of_word(value);
+      throw InputError("--displaced", fmt::format("'{}'", value),
+                       "near, uniform, lost or archard:K, e.g. archard:1e-15/Pa", "");
+    }
     sliding.displaced = sliding::Displaced::near;
     const std::string coefficient = value.substr(law.size());
     if (const auto number = parse_number(coefficient)) {
@@ -111,7 +115,7 @@ io::Json json_of(const Request& request, const Scan& scan, const cases::SlideRes
                     {"rms_height_m", result.tool_rms_height}};
   object["step_m"] = result.step;
   object["steps"] = result.steps;
-  if (result.steady) object["steady"] = *result.steady;
+  object["steady"] = result.steady ? io::Json(*result.steady) : io::Json();
   object["states"] = states_json(
       cases::slide_columns(cases::parts_of(request.settings, request.sliding)), result.states);
   object["converged"] = result.converged;

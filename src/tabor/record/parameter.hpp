@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -398,8 +399,9 @@ std::optional<Objection> objection_to_bounds(const Table& parameters, const Sett
   for (const Parameter<Settings>& one : parameters) {
     for (const double number : one.numbers(settings)) {
       if (one.bounds.contain(number)) continue;
-      return Objection{
-          .setting = one.name, .got = text_of(number, one), .expected = one.bounds.text};
+      return Objection{.setting = one.name,
+                       .got = text_of(number, one),
+                       .expected = one.bounds.text + (std::isinf(number) ? ", and finite" : "")};
     }
   }
   return std::nullopt;

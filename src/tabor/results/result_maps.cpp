@@ -256,6 +256,25 @@ ResultMaps read_result_maps(const Hdf5Reader& reader, const fs::path& file) {
   return result;
 }
 
+namespace {
+
+/// Throws InputError where the chosen state lacks the map, but others have it.
+void require_another_state(const ResultMaps& result, const MapChoice& choice) {
+  std::vector<std::size_t> with_map;
+  for (std::size_t i = 0; i < result.states.size(); ++i) {
+    const std::vector<NamedMap>& maps = result.states[i].maps;
+    const bool has_map = std::any_of(maps.begin(), maps.end(),
+                                     [&](const NamedMap& map) { return map.name == choice.field; });
+    if (has_map) with_map.push_back(i);
+  }
+  if (with_map.empty() || !choice.state) return;
+  throw InputError(fmt::format("state of {}", result.file.string()),
+                   fmt::format("{}, which has no map '{}'", *choice.state, choice.field),
+                   fmt::format("one of {}", fmt::join(with_map, ", ")), "");
+}
+
+}  // namespace
+
 scan::MapSet chosen_maps(const ResultMaps& result, const MapChoice& choice) {
   const std::size_t begin = first_state(result, choice);
   const std::size_t end =
@@ -280,6 +299,7 @@ scan::MapSet chosen_maps(const ResultMaps& result, const MapChoice& choice) {
     }
   }
   if (!set.maps.empty()) return set;
+  require_another_state(result, choice);
   throw InputError(fmt::format("field of {}", result.file.string()),
                    fmt::format("'{}'{}", choice.field, suggestion(choice.field, names_of(known))),
                    list_of(known) + " or all", "");

@@ -25,6 +25,14 @@ std::string name_of(std::string_view text) {
   return name == "H" ? "hurst" : name;
 }
 
+/// A name as recipes are documented with.
+std::string shown_name(std::string name) {
+  if (name == "rms_height") return "Sq";
+  if (name == "hurst") return "H";
+  std::replace(name.begin(), name.end(), '_', '-');
+  return name;
+}
+
 /// A name and its value, "Sa=0.1um".
 struct Entry {
   std::string what;  // the recipe and the name, for messages
@@ -58,17 +66,19 @@ std::uint64_t whole(const Entry& entry) {
 
 const RecipeSetting& setting_of(const std::string& kind, const Entry& entry) {
   std::vector<std::string> names{"Sa", "length", "seed"};
+  std::vector<std::string> known = names;
   for (const RecipeSetting& one : recipe_settings()) {
     const bool is_of_kind = std::any_of(one.kinds.begin(), one.kinds.end(), [&](const auto& name) {
       return name == kind || name.starts_with(kind + ",");
     });
     if (!is_of_kind) continue;
     if (one.name == entry.name) return one;
-    names.push_back(one.name);
+    known.push_back(one.name);
+    names.push_back(shown_name(one.name));
   }
   throw InputError(
       entry.what, "a name that it does not have",
-      fmt::format("one of {}{}", fmt::join(names, ", "), suggestion(entry.name, names)), "");
+      fmt::format("one of {}{}", fmt::join(names, ", "), suggestion(entry.name, known)), "");
 }
 
 Cell value_of(const RecipeSetting& setting, const Entry& entry) {
@@ -157,7 +167,7 @@ topography::Topography generate(const LineRecipe& recipe, const Grid& pixels) {
     request.grid.lx = static_cast<double>(request.grid.nx) * pixels.dx();
   }
   const auto spelling = [&](std::string_view setting) {
-    return fmt::format("recipe {}: {}", recipe.request.kind, setting);
+    return fmt::format("recipe {}: {}", recipe.request.kind, shown_name(std::string(setting)));
   };
   topography::Topography surface = [&] {
     try {

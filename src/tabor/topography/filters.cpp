@@ -158,16 +158,18 @@ void check_cutoff(const Filter& filter, double wavelength, const Grid& grid) {
 }
 
 /// What to think of a cutoff that does nearly nothing, or nearly everything; "" if neither.
-std::string warning_about(const Filter& filter, double wavelength, const Grid& grid) {
+std::string warning_about(const Filter& filter, double wavelength, const Grid& grid, bool high) {
   if (wavelength > (is_profile(grid) ? scan_side(grid) : std::min(grid.lx, grid.ly))) {
     return fmt::format(
-        "The cutoff of {} is longer than the scan ({} x {}), so little more than the mean remains",
-        to_string(filter), format_si(grid.lx, "m"), format_si(grid.ly, "m"));
+        "The cutoff of {} is longer than the scan ({} x {}), so little more than the mean {}",
+        to_string(filter), format_si(grid.lx, "m"), format_si(grid.ly, "m"),
+        high ? "is removed" : "remains");
   }
   const double pixel = std::max(grid.dx(), grid.dy());
   if (is_gaussian(filter.kind) && wavelength < 2 * pixel) {
-    return fmt::format("The cutoff of {} is below two pixels ({}), so it changes almost nothing",
-                       to_string(filter), format_si(2 * pixel, "m"));
+    return fmt::format("The cutoff of {} is below two pixels ({}), so it {}", to_string(filter),
+                       format_si(2 * pixel, "m"),
+                       high ? "leaves almost nothing" : "changes almost nothing");
   }
   return "";
 }
@@ -189,7 +191,7 @@ Topography filtered(Topography topography, const Filter& filter, bool high) {
                                                    "not match; put <mirror> before it",
                                                    to_string(filter))});
   }
-  const auto warning = warning_about(filter, filter.cutoff_wavelength(side), before.grid);
+  const auto warning = warning_about(filter, filter.cutoff_wavelength(side), before.grid, high);
   if (!warning.empty()) result.warnings.push_back({.code = "filter", .text = warning});
   result.history.push_back(describe(high ? "highpass" : "lowpass", filter, side, before, result));
   return result;

@@ -172,8 +172,9 @@ void warn_of_quantum(double quantum, double rms, Warnings& list) {
   constexpr double kPlane = 1e-6;  // heights on a plane but for rounding
   if (quantum > kCoarse * rms && rms > kPlane * quantum) {
     list.push_back({.code = "height-steps",
-                    .text = fmt::format("Heights come in steps of {}, which is {:.2g} of their rms",
-                                        format_si(quantum, "m"), quantum / rms)});
+                    .text = fmt::format(
+                        "Heights come in steps of {}, which is {:.2g} of their rms about a plane",
+                        format_si(quantum, "m"), quantum / rms)});
   }
 }
 

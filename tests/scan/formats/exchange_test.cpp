@@ -427,6 +427,35 @@ TEST_F(Stl, HolesAreLeftOut) {
   EXPECT_THAT(note_of(map, "map.stl"), HasSubstr(std::to_string(2 * n_squares) + " triangles"));
 }
 
+TEST_F(Stl, NeedsFourNeighboursWithHeights) {
+  const auto rejection_of = [&](const topography::Topography& map) {
+    try {
+      write(map, folder / "map.stl");
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  topography::Topography map = test::small_map();
+  map.height.setConstant(test::kNaN);
+  map.height(1, 1) = 0;
+  EXPECT_THAT(rejection_of(map),
+              HasSubstr("no four neighbours have a height; use <fill=harmonic>"));
+  topography::Topography row;
+  row.grid = {.nx = 4, .ny = 1, .lx = 4e-6, .ly = 1e-6};
+  row.height = Field::Zero(1, 4);
+  EXPECT_THAT(rejection_of(row), HasSubstr("at least 2 x 2 pixels"));
+}
+
+TEST_F(Exchange, OnePixelHasNoPlaceInTextPoints) {
+  topography::Topography pixel;
+  pixel.grid = {.nx = 1, .ny = 1, .lx = 1e-6, .ly = 1e-6};
+  pixel.height = Field::Zero(1, 1);
+  EXPECT_THROW(write(pixel, folder / "one.xyz"), InputError);
+  write(pixel, folder / "one.txt");
+  EXPECT_EQ(read(folder / "one.txt").grid.size(), 1);
+}
+
 /// Files of these formats, cut and with flipped bits: read or rejected, never a crash.
 TEST_F(Exchange, DamagedFilesNeverBreakTheProgram) {
   ReadOptions options = test::micrometres();

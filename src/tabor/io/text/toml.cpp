@@ -310,7 +310,11 @@ Config Config::with(std::string_view key, std::string_view value) const {
     table->insert(steps[i], toml::table{});
     table = (*table)[steps[i]].as_table();
     if (table == nullptr) {
-      throw InputError(place(key) + ": '" + steps[i] + "' is a value, not a table");
+      const toml::node* node = changed->values.get(steps[i]);
+      throw InputError(place(key) + ": '" + steps[i] +
+                       (node != nullptr && node->is_array()
+                            ? "' is a list of tables, which only the file can change"
+                            : "' is a value, not a table"));
     }
   }
   try {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
 #include "tabor/core/units.hpp"
@@ -64,8 +65,11 @@ std::string row_of_triangles(const topography::Topography& topography, Index y) 
 void write_stl(const topography::Topography& topography, const std::filesystem::path& file) {
   const std::size_t n = count_triangles(topography.height);
   if (n == 0 || n > 0xFFFFFFFF) {
+    const bool is_thin = std::min(topography.grid.nx, topography.grid.ny) < 2;
     throw InputError(file.string(), fmt::format("{} triangles", n), "1 to 4294967295",
-                     n == 0 ? "write a map of at least 2 x 2 pixels" : "use <resample>");
+                     n > 0     ? "use <resample>"
+                     : is_thin ? "write a map of at least 2 x 2 pixels"
+                               : "no four neighbours have a height; use <fill=harmonic>");
   }
   io::write_file(file, [&](const io::Append& append) {
     std::string head;

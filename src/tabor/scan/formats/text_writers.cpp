@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "tabor/core/error.hpp"
 #include "tabor/io/files/atomic_file.hpp"
 #include "tabor/io/text/csv.hpp"
 #include "tabor/scan/formats/bytes.hpp"
@@ -91,6 +92,10 @@ void write_matrix(const topography::Topography& topography, const std::filesyste
 
 void write_xyz_map(const MapSet& maps, const std::filesystem::path& file) {
   const NamedMap& map = maps.maps.front();
+  if (maps.grid.size() < 2) {
+    throw InputError(file.string(), "one pixel", "at least two, whose places show the pixel size",
+                     "write .txt");
+  }
   const Field values = map.load();
   std::string text = fmt::format("# x [m] y [m] {} [{}]\n", map.name, map.unit);
   for (Index y = 0; y < maps.grid.ny; ++y) {
