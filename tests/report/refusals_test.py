@@ -25,7 +25,7 @@ STATES = {
     (2e6, 3.0): ("frictionless flood", True),
     (5e6, 0.45): ("", False),
     (5e6, 0.9): ("implausible-friction", True),
-    (5e6, 3.0): ("fluid-film frictionless", True),
+    (5e6, 3.0): ("fluid-film flooded", True),
 }
 STRING = h5py.string_dtype()
 
@@ -122,11 +122,11 @@ class OnThePage(unittest.TestCase):
         page = self.page(one_scan)
         answer = self.rows(page, '<table class="answer">')
         signs = {name: [cell[-1] if cell[-1] in "†‡§¶‖" else "" for cell in cells] for name, cells in answer.items() if name.startswith("friction")}
-        self.assertEqual(signs, {"friction dry": ["", "¶"], "friction, 0.45 g/m²": ["", "†"], "friction, 0.9 g/m²": ["§", "¶"], "friction, 3 g/m²": ["‡", "§"]})
-        for sign, code in zip("†‡§¶", ("not-converged", "flood", "frictionless", "implausible-friction")):
+        self.assertEqual(signs, {"friction dry": ["", "‖"], "friction, 0.45 g/m²": ["", "†"], "friction, 0.9 g/m²": ["§", "‖"], "friction, 3 g/m²": ["‡", "¶"]})
+        for sign, code in zip("†‡§¶‖", ("not-converged", "flood", "frictionless", "flooded", "implausible-friction")):
             self.assertIn(f"{sign} <code>tabor table</code> leaves out this number: {code}.", page)
         results = self.rows(page, '<section id="results">')
-        self.assertEqual([cell[-1] for cell in results["friction wet"]], [results["friction wet"][0][-1], "§", "‡", "†", "¶", "§"])
+        self.assertEqual([cell[-1] for cell in results["friction wet"]], [results["friction wet"][0][-1], "§", "‡", "†", "‖", "¶"])
 
     def test_rows_and_means_of_a_study(self):
         page = self.page(lambda folder: study(folder, CODES))

@@ -40,10 +40,13 @@ def _begins_as_hdf5(path):
 
 
 def _no_result(path):
-    return InputError(
-        f"{path}: got a file that is no result of tabor; expected the folder of a 'tabor sweep' or a file written with -o; "
-        "of a scan, 'tabor friction SCAN ... -o result.h5' makes one"
+    name = Path(path).name
+    of_it = (
+        "of parameters, 'tabor params SCAN ... -o params.csv' makes one"
+        if name.endswith(".json")
+        else f"of a scan, 'tabor friction {name} ... -o result.h5' makes one"
     )
+    return InputError(f"{path}: got a file that is no result of tabor; expected the folder of a 'tabor sweep' or a file written with -o; {of_it}")
 
 
 def text(value):

@@ -241,7 +241,7 @@ std::vector<std::string> failures_in(const std::vector<Row>& rows) {
       for (const double pressure : pressures) some.push_back(format_si(pressure, "Pa"));
     }
     const std::string under = some.empty() ? "" : fmt::format(" under {}", fmt::join(some, ", "));
-    lines.push_back(first.scan + under + ": " + why);
+    lines.push_back(fmt::format("{}{}: {}", first.scan, under, why));
   }
   return lines;
 }
