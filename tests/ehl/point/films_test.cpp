@@ -147,6 +147,24 @@ Field random_waves(const PointProblem& problem, double rms, const CounterRandom&
 
 class RandomPointContacts : public testing::TestWithParam<double> {};
 
+// The template of `tabor ehl point` on a finer grid: flow and deflection both matter over much of
+// the contact, where the oil thins.
+TEST(ThinningOil, IsSolvedOnFineGrids) {
+  PointProblem problem;
+  problem.radius_x = problem.radius_y = 1.5e-3;
+  problem.load = 16.6;
+  problem.effective_modulus = 230.8e9 / 2;
+  problem.entrainment_speed = 0.05;
+  problem.sliding_speed = 0.1;
+  problem.lubricant.viscosity = material::roelands_viscosity(0.149, 2.131e-8);
+  problem.lubricant.shear = material::ree_eyring_shear(6.8e6);
+  problem.nodes_x = 450;
+  problem.nodes_y = 394;
+  const PointResult result = solve_point(problem);
+  EXPECT_TRUE(result.convergence.converged());
+  EXPECT_LE(result.n_linear_iterations, 25 * result.convergence.iterations);
+}
+
 TEST_P(RandomPointContacts, Converge) {
   constexpr int kCases = 50;
   const CounterRandom random(42);

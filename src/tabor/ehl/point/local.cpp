@@ -11,8 +11,9 @@ namespace {
 constexpr Index kReach = 1;  // of the deflection by one unknown, in nodes
 /// Dipoles where the balance depends on its own pressure through flow less than this many times
 /// what it does through deflection. Both extremes would serve badly: dipoles make a flow driven by
-/// pressure an equation of fourth order, single pressures are felt far away.
-constexpr double kFlowOverElasticity = 8;
+/// pressure an equation of fourth order, single pressures are felt far away. Where the oil thins
+/// under shear both matter over much of the contact: a quarter of this leaves fine grids unsolved.
+constexpr double kFlowOverElasticity = 32;
 
 constexpr std::array<PointOffset, 4> kCross{{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
 
