@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <string>
 
 #include "ehl/point/moes.hpp"
@@ -27,19 +28,25 @@ PointProblem with_nodes(PointProblem problem, Index nodes) {
   return problem;
 }
 
+/// Compares estimates on these grids with the limit of finer ones.
+void expect_within_a_factor_of_two(const PointProblem& problem,
+                                   std::initializer_list<Index> grids) {
+  const double fine = film_of(with_nodes(problem, 193));
+  const double finest = film_of(with_nodes(problem, 257));
+  // Of second order: 193 and 257 nodes have spacings of 4 to 3.
+  const double limit = finest + (finest - fine) * 9 / 7;
+  for (const Index nodes : grids) {
+    const PointProblem coarse = with_nodes(problem, nodes);
+    const double error = 1 - film_of(coarse) / limit;
+    EXPECT_GT(point_grid_error(coarse), error / 2) << nodes;
+    EXPECT_LT(point_grid_error(coarse), error * 2) << nodes;
+  }
+}
+
 TEST(PointGridError, IsWithinAFactorOfTwoOfThatOfFinerGrids) {
   for (const auto& [M, L] : {std::pair{20.0, 0.0}, {100.0, 0.0}, {100.0, 10.0}, {500.0, 0.0}}) {
-    const PointProblem problem = moes_case(M, L, 65);
-    const double fine = film_of(with_nodes(problem, 193));
-    const double finest = film_of(with_nodes(problem, 257));
-    // Of second order: 193 and 257 nodes have spacings of 4 to 3.
-    const double limit = finest + (finest - fine) * 9 / 7;
-    for (const Index nodes : {65, 97, 129}) {
-      const PointProblem coarse = with_nodes(problem, nodes);
-      const double error = 1 - film_of(coarse) / limit;
-      EXPECT_GT(point_grid_error(coarse), error / 2) << M << ' ' << L << ' ' << nodes;
-      EXPECT_LT(point_grid_error(coarse), error * 2) << M << ' ' << L << ' ' << nodes;
-    }
+    SCOPED_TRACE(fmt::format("M = {}, L = {}", M, L));
+    expect_within_a_factor_of_two(moes_case(M, L, 65), {65, 97, 129});
   }
 }
 
@@ -47,15 +54,7 @@ TEST(PointGridError, IsWithinAFactorOfTwoWhereTheOilThins) {
   PointProblem problem = moes_case(1500, 13, 97);
   problem.lubricant.shear = material::ree_eyring_shear(6.8e6);
   problem.sliding_speed = 2 * problem.entrainment_speed;
-  const double fine = film_of(with_nodes(problem, 193));
-  const double finest = film_of(with_nodes(problem, 257));
-  const double limit = finest + (finest - fine) * 9 / 7;
-  for (const Index nodes : {97, 129, 193}) {
-    const PointProblem coarse = with_nodes(problem, nodes);
-    const double error = 1 - film_of(coarse) / limit;
-    EXPECT_GT(point_grid_error(coarse), error / 2) << nodes;
-    EXPECT_LT(point_grid_error(coarse), error * 2) << nodes;
-  }
+  expect_within_a_factor_of_two(problem, {97, 129, 193});
 }
 
 /// The domain in half axes, 1.5 to 1, with nodes of one spacing.
