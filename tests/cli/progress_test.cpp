@@ -104,8 +104,8 @@ TEST(TimeLeft, IsNotToldFromAShareThatJumps) {
 
 TEST(TimeLeft, OfAContinuedRunCountsFromWhereItGoesOn) {
   TimeLeft left;
-  for (double now = 2; now < 50;
-       now += 0.1) {  // 40 % are there after two seconds, the rest takes 60
+  // 40 % are there after two seconds, the rest takes 60.
+  for (double now = 2; now < 50; now += 0.1) {
     const auto told = left.at(now, 0.4 + 0.6 * (now - 2) / 60);
     if (std::abs(now - 7.1) > 0.15) {
       EXPECT_EQ(told.has_value(), now > 7.1) << now;

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 #include <memory>
@@ -80,7 +81,9 @@ void take_wear(Option& option, cases::SlideSettings& sliding) {
     if (!value.starts_with(law)) {
       if (sliding::kDisplaced.find(value)) return of_word(value);
       throw InputError("--displaced", fmt::format("'{}'", value),
-                       "near, uniform, lost or archard:K, e.g. archard:1e-15/Pa", "");
+                       fmt::format("{} or archard:K, e.g. archard:1e-15/Pa",
+                                   fmt::join(sliding::kDisplaced.all(), ", ")),
+                       "");
     }
     sliding.displaced = sliding::Displaced::near;
     const std::string coefficient = value.substr(law.size());

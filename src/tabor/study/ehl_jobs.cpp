@@ -20,9 +20,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-ehl::CaseResult solve_or_reject(const ehl::CaseSolver& solve, const EhlCase& one,
-                                const ehl::CaseSetting& setting) {
+ehl::CaseResult solve_or_reject(const ehl::Program& program, const ehl::CaseSolver& solve,
+                                const EhlCase& one, const ehl::CaseSetting& setting) {
   try {
+    check_memory_of_case(program, one.config);
     ehl::CaseResult result = solve(one.config, setting);
     // Maps of many cases would fill the memory.
     result.facts.clear();
@@ -132,8 +133,8 @@ void compute(SeriesOfJobs& shared, Chain& chain, std::size_t i, const engine::Mo
   const EhlCase& one = shared.series.cases[i];
   const std::lock_guard lock(chain.mutex);
   if (shared.store) stand_before(shared, chain, i);
-  ehl::CaseResult result =
-      solve_or_reject(chain.solver.solve, one, shared.series.setting(monitor.own));
+  ehl::CaseResult result = solve_or_reject(shared.series.program, chain.solver.solve, one,
+                                           shared.series.setting(monitor.own));
   chain.behind = i;
   if (shared.store) keep(shared, chain, i, result);
   shared.results[one.place] = std::move(result);
@@ -163,7 +164,10 @@ engine::Job job_of(const Shared& shared, const std::shared_ptr<Chain>& chain, st
   };
   if (series.program.memory) {
     job.memory = [shared, i](const engine::Monitor&) {
-      return shared->series.program.memory(shared->series.cases[i].config);
+      const ehl::Program& program = shared->series.program;
+      constexpr double most = 1e18;  // that the type holds
+      return static_cast<std::size_t>(
+          std::min(most, program.memory(shared->series.cases[i].config)));
     };
   }
   if (!shared->store) return job;

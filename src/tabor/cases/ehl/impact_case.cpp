@@ -101,8 +101,8 @@ CaseResult solve(const io::Config& config, const CaseSetting& setting) {
 }
 
 /// By how much the peak of `tabor ehl impact` grows: matrices of all rings.
-std::size_t memory_of(const io::Config& config) {
-  const std::size_t n = read_impact_settings(config).nodes;
+double memory_of(const io::Config& config) {
+  const auto n = static_cast<double>(read_impact_settings(config).nodes);
   return 6 * sizeof(double) * n * n;
 }
 

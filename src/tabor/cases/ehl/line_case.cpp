@@ -135,8 +135,8 @@ void check_line_case(const io::Config& config) {
 }
 
 /// By how much the peak of `tabor ehl line` grows.
-std::size_t memory_of(const io::Config& config) {
-  const std::size_t n = read_line_settings(config).nodes;
+double memory_of(const io::Config& config) {
+  const auto n = static_cast<double>(read_line_settings(config).nodes);
   return sizeof(double) * n * n;
 }
 

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "tabor/cases/ehl/case.hpp"
-#include "tabor/core/checks.hpp"
 #include "tabor/core/names.hpp"
 #include "tabor/record/settings_file.hpp"
 
@@ -231,9 +230,6 @@ double sliding_speed(const LineSettings& settings, const io::Config& file) {
 }
 
 LineProblem smooth_problem(const LineSettings& settings, const io::Config& file) {
-  const auto n = static_cast<double>(settings.nodes);
-  check_memory(file.place("grid.nodes"), fmt::format("{} nodes", settings.nodes),
-               sizeof(double) * n * n, "take fewer nodes");
   LineProblem problem;
   problem.radius = settings.radius;
   problem.load = settings.load;

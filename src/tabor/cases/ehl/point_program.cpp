@@ -15,7 +15,7 @@ namespace {
 
 /// By how much the peak of `tabor ehl point` grows with the nodes: 1100 smooth, 1600 rough, and a
 /// little.
-constexpr std::size_t kBytesPerNode = 2000;
+constexpr double kBytesPerNode = 2000;
 
 /// A number of a problem or a result, as a file names it.
 template <typename Owner>
@@ -108,9 +108,9 @@ CaseResult solve(const io::Config& config, const CaseSetting& setting) {
   return result_of(outcome);
 }
 
-std::size_t memory_of(const io::Config& config) {
+double memory_of(const io::Config& config) {
   const PointProblem problem = read_point(config);
-  return kBytesPerNode * static_cast<std::size_t>(problem.nodes_x * problem.nodes_y);
+  return kBytesPerNode * static_cast<double>(problem.nodes_x * problem.nodes_y);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "tabor/core/checks.hpp"
 #include "tabor/core/error.hpp"
 
 namespace tabor::ehl {
@@ -71,9 +72,16 @@ void check_case(const Program& program, const io::Config& config) {
   program.check(config);
 }
 
+void check_memory_of_case(const Program& program, const io::Config& config) {
+  if (!program.memory) return;
+  check_memory(config.place("grid.nodes"), "so many nodes", program.memory(config),
+               "take fewer nodes");
+}
+
 CaseResult solve_case(const Program& program, const io::Config& config,
                       const CaseSetting& setting) {
   reject_unknown_keys(program, config);
+  check_memory_of_case(program, config);
   return program.solve(config, setting);
 }
 

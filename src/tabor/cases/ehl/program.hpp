@@ -134,7 +134,7 @@ struct Program {
   /// Beginnings of keys whose values decide whether two cases may be neighbours in a chain.
   std::vector<std::string> chain_ends = {};
   /// Memory that a case takes [bytes]. Throws InputError for an invalid one.
-  std::function<std::size_t(const io::Config&)> memory = {};
+  std::function<double(const io::Config&)> memory = {};
 };
 
 Program impact_program();   ///< a ball falls on a lubricated flat (docs/ehl.md)
@@ -157,8 +157,11 @@ void reject_unknown_keys(const Program& program, const io::Config& config);
 /// missing, values out of range or of another dimension. Files that it names are not read.
 void check_case(const Program& program, const io::Config& config);
 
-/// Solves one case of a program whose keys it knows. Throws as CaseSolver and
-/// reject_unknown_keys().
+/// Throws InputError for a case that takes more memory than is free.
+void check_memory_of_case(const Program& program, const io::Config& config);
+
+/// Solves one case of a program whose keys it knows. Throws as CaseSolver, reject_unknown_keys()
+/// and check_memory_of_case().
 CaseResult solve_case(const Program& program, const io::Config& config,
                       const CaseSetting& setting = {});
 
