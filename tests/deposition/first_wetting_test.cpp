@@ -26,7 +26,9 @@ Field rough() {
 
 /// How many pixels another dose wets first than films of all doses, laid one by one, say.
 Index n_wrong(const Field& height, const Grid& grid, const Dose& dose, const Mask& where) {
-  const auto first = first_wetting_doses(height, grid, dose, where);
+  Dose no_films = dose;
+  no_films.mean_films.clear();
+  const auto first = first_wetting_doses(height, grid, no_films, {dose.mean_films, where}, {});
   const std::vector<Film> films = deposit(height, grid, dose);
   Index n = 0;
   for (Index p = 0; p < height.size(); ++p) {
@@ -75,7 +77,8 @@ TEST(FirstWettingDose, TakesRisingDosesOfTheLimitAlone) {
   const Field height = rough();
   const Mask where = Mask::Constant(height.rows(), height.cols(), true);
   const auto find = [&](const Dose& dose, const Mask& pixels) {
-    return first_wetting_doses(height, kGrid, dose, pixels);
+    return first_wetting_doses(height, kGrid, {.mean_films = {}, .model = dose.model},
+                               {dose.mean_films, pixels}, {});
   };
   const auto limit = [](std::vector<double> films) {
     return Dose{.mean_films = std::move(films), .model = Model::limit};
@@ -85,6 +88,50 @@ TEST(FirstWettingDose, TakesRisingDosesOfTheLimitAlone) {
   EXPECT_THROW(find({.mean_films = {1e-7}, .model = Model::bottom_fill}, where), InputError);
   EXPECT_THROW(find(limit({1e-7}), Mask::Constant(1, 1, true)), InputError);
   EXPECT_THROW(find(limit(std::vector<double>(65536, 1e-7)), where), InputError);
+}
+
+/// How many pixels and films differ from those of runs of their own.
+Index n_changed_together(const Field& height, const Grid& grid, const Dose& dose,
+                         const Wetting& wetting) {
+  Dose no_films = dose;
+  no_films.mean_films.clear();
+  const std::vector<Film> alone = deposit(height, grid, dose);
+  Index n = 0;
+  std::size_t n_films = 0;
+  const FilmSink compare = [&](Film&& film) {
+    const Film& expected = alone[film.request];
+    const bool is_same = (film.thickness == expected.thickness).all() &&
+                         film.dosed_volume == expected.dosed_volume &&
+                         film.lost_volume == expected.lost_volume;
+    n += is_same ? 0 : 1;
+    ++n_films;
+  };
+  const auto first = first_wetting_doses(height, grid, dose, wetting, compare);
+  EXPECT_EQ(n_films, alone.size());
+  n += first == first_wetting_doses(height, grid, no_films, wetting, {}) ? 0 : 1;
+  return n;
+}
+
+// Doses of films below, between, at and above those of wetting, some of them twice.
+TEST(FirstWettingDose, IsTheSameWithFilmsInTheSameRun) {
+  Dose dose{.mean_films = {4e-7, 0, 1e-7, 5e-10, 1e-7, 3e-5}, .model = Model::limit};
+  const Wetting on_waves{{0, 1e-9, 1e-8, 1e-7, 3e-7, 3e-7, 1e-6, 2e-5},
+                         Mask::Constant(kSide, kSide, true)};
+  const Grid small{9, 7, 9e-6, 7e-6};
+  for (const Edge edge : {Edge::closed, Edge::periodic, Edge::open}) {
+    dose.edge = edge;
+    EXPECT_EQ(n_changed_together(rough(), kGrid, dose, on_waves), 0) << name(edge);
+    for (std::uint64_t seed = 0; seed < 200; ++seed) {
+      const CounterRandom random(seed);
+      const double n_levels = 2.0 + static_cast<double>(seed % 9);
+      const Field height = Field::NullaryExpr(small.ny, small.nx, [&](Index y, Index x) {
+        const auto place = static_cast<std::uint64_t>(y * small.nx + x);
+        return 1e-7 * std::floor(n_levels * random.uniform(place));
+      });
+      const Wetting wetting{on_waves.mean_films, height > 1e-7};
+      EXPECT_EQ(n_changed_together(height, small, dose, wetting), 0) << seed << ' ' << name(edge);
+    }
+  }
 }
 
 }  // namespace

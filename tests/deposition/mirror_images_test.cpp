@@ -62,8 +62,12 @@ TEST(RainOnMirrorImages, WetsTheFirstAtTheSameDoses) {
   const Dose dose = dose_with(Model::limit, Edge::closed);
   Mask where = Mask::Constant(whole.rows(), whole.cols(), true);
   where.bottomRightCorner(5, 7) = false;
-  const auto first = first_wetting_doses(whole, kWhole, dose, where);
   const std::vector<Film> films = deposit(whole, kWhole, dose);
+  const FilmSink is_the_same = [&](Film&& film) {
+    EXPECT_TRUE((film.thickness == films[film.request].thickness).all());
+  };
+  const auto first =
+      first_wetting_doses(whole, kWhole, dose, {dose.mean_films, where}, is_the_same);
   for (Index p = 0; p < whole.size(); ++p) {
     std::size_t expected = where.data()[p] ? 0 : films.size();
     while (expected < films.size() && !(films[expected].thickness.data()[p] > 0)) ++expected;

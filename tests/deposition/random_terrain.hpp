@@ -3,9 +3,9 @@
 #include <vector>
 
 #include "tabor/core/random.hpp"
+#include "tabor/deposition/even_rain.hpp"
 #include "tabor/deposition/naive.hpp"
 #include "tabor/deposition/pools.hpp"
-#include "tabor/deposition/rain.hpp"
 
 namespace tabor::deposition::testing {
 

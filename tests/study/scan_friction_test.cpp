@@ -45,14 +45,43 @@ cases::CaseSettings along_a_load_path() {
   return path;
 }
 
+cases::CaseSettings with_vanishing_droplets() {
+  cases::CaseSettings limit = settings();
+  limit.film.model = deposition::Model::limit;
+  return limit;
+}
+
 /// A surface without relief has no density curve, and a friction all the same.
 TEST(FrictionOf, IsFoundWithoutRelief) {
   topography::Topography flat = rough();
   flat.height.setZero();
-  std::vector<double> wet;
-  friction_of(flat, settings(),
-              [&](const FrictionState& state) { wet.push_back(state.friction.lubricated_share); });
-  EXPECT_EQ(wet, std::vector<double>(6, 1.0));
+  for (const cases::CaseSettings& asked : {settings(), with_vanishing_droplets()}) {
+    std::vector<double> wet;
+    const auto result = friction_of(flat, asked, [&](const FrictionState& state) {
+      wet.push_back(state.friction.lubricated_share);
+    });
+    EXPECT_EQ(wet, std::vector<double>(6, 1.0));
+    EXPECT_TRUE(result.density_curves.empty());
+  }
+}
+
+TEST(FrictionOf, FindsTheDensityCurvesThatTheContactsAloneGive) {
+  const topography::Topography surface = rough();
+  for (const cases::CaseSettings& asked : {settings(), with_vanishing_droplets()}) {
+    std::vector<cases::Touching> contacts;
+    const auto receive = [&](const FrictionState& state) {
+      if (state.friction.lubricant_density == asked.film.lubricant_densities.front()) {
+        contacts.push_back(cases::touching_of(state.contact));
+      }
+    };
+    const auto curves = friction_of(surface, asked, receive).density_curves;
+    const auto alone = cases::density_curves(surface, contacts, asked);
+    ASSERT_EQ(curves.size(), alone.size());
+    for (std::size_t i = 0; i < curves.size(); ++i) {
+      EXPECT_EQ(curves[i].lubricant_densities, alone[i].lubricant_densities);
+      EXPECT_EQ(curves[i].lubricated_shares, alone[i].lubricated_shares);
+    }
+  }
 }
 
 cases::CaseSettings flowing() {
@@ -107,6 +136,7 @@ std::vector<std::string> states_in_turn(const cases::CaseSettings& asked) {
 
 TEST(FrictionOf, HandsOnWhatTheStatesGiveOneAfterTheOther) {
   EXPECT_EQ(states_of(settings(), 1), states_in_turn(settings()));
+  EXPECT_EQ(states_of(with_vanishing_droplets(), 1), states_in_turn(with_vanishing_droplets()));
   EXPECT_EQ(states_of(along_a_load_path(), 1), states_in_turn(along_a_load_path()));
   EXPECT_NE(states_of(along_a_load_path(), 1), states_of(settings(), 1));
 }

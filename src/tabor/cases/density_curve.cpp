@@ -47,6 +47,22 @@ std::vector<double> densities_for(const topography::Topography& surface,
   return all;
 }
 
+/// The doses of all densities for `settings`, in one run with the films of `laid`.
+WettingDoses doses_and_films(const topography::Topography& surface, const FilmSettings& settings,
+                             FilmSettings laid, const Mask& where, const deposition::FilmSink& sink,
+                             const Observer& observer) {
+  WettingDoses doses{densities_for(surface, settings), {}};
+  if (doses.lubricant_densities.empty() && laid.lubricant_densities.empty()) return doses;
+  laid.model = deposition::Model::limit;
+  deposition::Wetting wetting{{}, where};
+  for (const double density : doses.lubricant_densities) {
+    wetting.mean_films.push_back(deposition::mean_film(density, settings.oil_density));
+  }
+  doses.first = deposition::first_wetting_doses(surface.height, surface.grid,
+                                                dose_of(laid, surface), wetting, sink, observer);
+  return doses;
+}
+
 /// Where any of them touches.
 Mask touched_by(const std::vector<Touching>& contacts, const topography::Topography& surface) {
   Mask touched = Mask::Constant(surface.height.rows(), surface.height.cols(), false);
@@ -80,20 +96,21 @@ bool has_density_curve(const CaseSettings& settings) {
 
 WettingDoses wetting_doses(const topography::Topography& surface, const FilmSettings& settings,
                            const Mask& where, const Observer& observer) {
-  FilmSettings film = settings;
-  film.model = deposition::Model::limit;
-  film.lubricant_densities = densities_for(surface, settings);
-  WettingDoses doses{film.lubricant_densities, {}};
-  if (film.lubricant_densities.empty()) return doses;
-  doses.first = deposition::first_wetting_doses(surface.height, surface.grid,
-                                                dose_of(film, surface), where, observer);
-  return doses;
+  FilmSettings no_films = settings;
+  no_films.lubricant_densities.clear();
+  return doses_and_films(surface, settings, no_films, where, {}, observer);
 }
 
 WettingDoses wetting_doses(const topography::Topography& surface, const FilmSettings& settings,
                            const Observer& observer) {
-  const Mask everywhere = Mask::Constant(surface.grid.ny, surface.grid.nx, true);
-  return wetting_doses(surface, settings, everywhere, observer);
+  return wetting_doses(surface, settings, Mask(), observer);
+}
+
+WettingDoses wetting_doses(const topography::Topography& surface, const FilmSettings& settings,
+                           const std::function<void(FilmRecord&&)>& receive,
+                           const Observer& observer) {
+  return doses_and_films(surface, settings, settings, Mask(), film_sink(surface, settings, receive),
+                         observer);
 }
 
 std::vector<double> lubricated_shares(const WettingDoses& doses, const Mask& contact) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -40,14 +41,19 @@ struct WettingDoses {
 /// place of the tool.
 bool has_density_curve(const CaseSettings& settings);
 
-/// Finds the first doses that wet the pixels of `where`, in the shape of the surface; the others
-/// count as wet by none. All doses are reached in one pass of vanishing droplets (Model::limit),
-/// whatever model the settings ask for. Throws as density_curves().
+/// Finds the first doses that wet the pixels of `where`, in the shape of the surface or empty for
+/// all; the others count as wet by none. All doses are reached in one pass of vanishing droplets
+/// (Model::limit), whatever model the settings ask for. Throws as density_curves().
 WettingDoses wetting_doses(const topography::Topography& surface, const FilmSettings& settings,
                            const Mask& where, const Observer& observer = {});
 
-/// Finds the first doses that wet each pixel. They need no contact and hold for any.
+/// Finds the first doses that wet each pixel: they need no contact and hold for any.
 WettingDoses wetting_doses(const topography::Topography& surface, const FilmSettings& settings,
+                           const Observer& observer = {});
+
+/// Finds them in one run with the films of the settings, which are of Model::limit.
+WettingDoses wetting_doses(const topography::Topography& surface, const FilmSettings& settings,
+                           const std::function<void(FilmRecord&&)>& receive,
                            const Observer& observer = {});
 
 /// Returns the share of a contact that each of the doses wets; 0 where nothing touches.

@@ -41,17 +41,22 @@ deposition::Dose dose_of(const FilmSettings& settings, const topography::Topogra
   return dose;
 }
 
-void film_state(const topography::Topography& surface, const FilmSettings& settings,
-                const std::function<void(FilmRecord&&)>& receive, const Observer& observer) {
+deposition::FilmSink film_sink(const topography::Topography& surface, const FilmSettings& settings,
+                               const std::function<void(FilmRecord&&)>& receive) {
   const Grid& grid = surface.grid;
   constexpr double kBytesOfPixel = 16;  // that rain takes at least, beside the heights
   check_memory("surface to lubricate", fmt::format("{} x {} pixels", grid.nx, grid.ny),
                kBytesOfPixel * static_cast<double>(grid.size()), "crop or resample the surface");
   const std::uint64_t digest = topography::digest_of(surface.height, surface.grid);
-  const deposition::FilmSink sink = [&](deposition::Film&& film) {
+  return [&surface, &settings, &receive, digest](deposition::Film&& film) {
     receive(record_of(surface, digest, std::move(film), settings));
   };
-  deposition::deposit(surface.height, grid, dose_of(settings, surface), sink, observer);
+}
+
+void film_state(const topography::Topography& surface, const FilmSettings& settings,
+                const std::function<void(FilmRecord&&)>& receive, const Observer& observer) {
+  deposition::deposit(surface.height, surface.grid, dose_of(settings, surface),
+                      film_sink(surface, settings, receive), observer);
 }
 
 std::vector<FilmRecord> film_state(const topography::Topography& surface,

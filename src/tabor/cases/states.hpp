@@ -62,6 +62,10 @@ void contact_states(elastic::ElasticOperator& elasticity, const topography::Topo
 /// Returns the dose of a rain on the surface with these settings.
 deposition::Dose dose_of(const FilmSettings& settings, const topography::Topography& surface);
 
+/// Returns a sink that makes records of the films of a surface and hands them on. All it is given
+/// must outlive it.
+deposition::FilmSink film_sink(const topography::Topography& surface, const FilmSettings& settings,
+                               const std::function<void(FilmRecord&&)>& receive);
 /// Lays down the films of all densities in one rain, in rising order of density; `receive` gets
 /// each when it is complete, so that only one is in memory.
 void film_state(const topography::Topography& surface, const FilmSettings& settings,

@@ -8,6 +8,7 @@
 #include "tabor/contact/contact.hpp"
 #include "tabor/contact/listed_caps.hpp"
 #include "tabor/contact/projection.hpp"
+#include "tabor/core/large_pages.hpp"
 #include "tabor/core/loops.hpp"
 
 namespace tabor::contact {
@@ -127,15 +128,15 @@ void collect_in_blocks(const Field& residual, FieldF* change, double threshold,
   });
   std::vector<std::size_t> starts{0};
   for (const PixelList& list : lists) starts.push_back(starts.back() + list.size());
-  set.values.residual = {};  // frees memory
+  release(set.values.residual);
   float* s = change == nullptr ? nullptr : change->data();
-  if (s != nullptr) set.response = {};
+  if (s != nullptr) release(set.response);
   CandidateSet next;
   resize(next, starts.back());
   parallel_for(residual.size(), kBlock, [&](Index begin, Index end) {
     const auto b = static_cast<std::size_t>(begin / kBlock);
     join(lists[b], set, v, s, starts[b], next);
-    lists[b] = {};
+    release(lists[b]);
     if (s != nullptr) std::fill(s + begin, s + end, 0.0F);
   });
   set = std::move(next);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <variant>
@@ -38,9 +39,11 @@ void check_maps(const elastic::ElasticOperator& elasticity, const Problem& probl
     throw InputError("contact", "saturation pressures that are none on this grid",
                      "more than zero at every pixel of the heights", "");
   }
-  if (problem.start.size() == 0) return;
+  if (problem.start.empty()) return;
+  const std::vector<double>& start = problem.start.values();
   if (problem.start.rows() != grid.ny || problem.start.cols() != grid.nx ||
-      !all_finite(problem.start) || extent_of(problem.start).lowest < 0) {
+      !std::all_of(start.begin(), start.end(),
+                   [](double p) { return p >= 0 && std::isfinite(p); })) {
     throw InputError("contact", "a pressure to start from that is no pressure on this grid",
                      "zero or more at every pixel of the heights", "");
   }

@@ -3,6 +3,7 @@
 #include <variant>
 
 #include "tabor/contact/caps.hpp"
+#include "tabor/contact/pressure_list.hpp"
 #include "tabor/core/convergence.hpp"
 #include "tabor/core/types.hpp"
 #include "tabor/elastic/operator.hpp"
@@ -48,7 +49,7 @@ struct Problem {
   Field height;       ///< [m], asperities up, shape (ny, nx), no NaN
   Control control{};  ///< what is given: mean pressure, force or separation
   Bounds bounds{};
-  Field start{};            ///< pressure to start from, like that of a similar problem [Pa]; may be
+  PressureList start{};     ///< pressure to start from, like that of a similar problem [Pa]; may be
                             ///< empty. The answer is the same within the tolerance.
   double tolerance = 1e-6;  ///< on the certificate
   int max_iterations = 5000;

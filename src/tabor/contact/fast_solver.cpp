@@ -117,7 +117,7 @@ void ProjectedGradient::refresh() {
 template <typename Residual, typename Update>
 void ProjectedGradient::collect(const Residual& residual, FieldF* change, const Update& update) {
   direction_.free_memory();
-  trial_ = {};
+  release(trial_);
   for_each(candidates_.size(), [&](std::size_t k) {
     candidates_.values.residual[k] = residual(candidates_.pixels[k]);
   });

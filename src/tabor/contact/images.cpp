@@ -20,7 +20,7 @@ std::optional<Problem> problem_of_image(const Problem& problem) {
       .height = first_image(problem.height),
       .control = problem.control,
       .bounds = {problem.bounds.upper, first_image(problem.bounds.upper_of_each)},
-      .start = first_image(problem.start),
+      .start = first_image(problem.start.map()),
       .tolerance = problem.tolerance,
       .max_iterations = problem.max_iterations,
   };

@@ -10,10 +10,10 @@ namespace tabor::contact {
 
 /// Contact under a mean pressure: what the solvers solve. Refers to the maps of a Problem.
 struct LoadProblem {
-  const Field& height;   ///< [m]
-  double mean_pressure;  ///< P [Pa]
-  Caps caps;             ///< p_sat [Pa]
-  const Field& start;    ///< [Pa], empty: none
+  const Field& height;        ///< [m]
+  double mean_pressure;       ///< P [Pa]
+  Caps caps;                  ///< p_sat [Pa]
+  const PressureList& start;  ///< empty: none
   double tolerance;
   int max_iterations;
 };

@@ -144,8 +144,8 @@ State ConjugateGradient::run(const Observer& observer) {
   State state;
   Convergence& convergence = state.convergence;
   convergence.tolerance = problem_.tolerance;
-  if (problem_.start.size() > 0) {
-    pressure_ = problem_.start;
+  if (!problem_.start.empty()) {
+    pressure_ = problem_.start.map();
     fit_to_load(pressure_, problem_.mean_pressure, caps_);
   } else {
     pressure_ =

@@ -6,6 +6,7 @@
 #include "tabor/contact/caps.hpp"
 #include "tabor/contact/long_waves.hpp"
 #include "tabor/contact/preconditioner.hpp"
+#include "tabor/core/large_pages.hpp"
 #include "tabor/core/loops.hpp"
 #include "tabor/elastic/operator.hpp"
 
@@ -67,7 +68,7 @@ class SearchDirection {
   void clear() { std::fill(whole_.begin(), whole_.end(), 0.0F); }
   /// Frees all but whole().
   void free_memory() {
-    for (std::vector<float>* values : {&compact_, &stiffness_, &moved_}) *values = {};
+    for (std::vector<float>* values : {&compact_, &stiffness_, &moved_}) release(*values);
   }
 
   /// Returns <S dp, M S dp> of the step before, M S dp being the change of the direction since:

@@ -34,10 +34,10 @@ bool is_certified(const State& state) {
 
 /// Where to look for the mean pressure.
 struct Guess {
-  double log_pressure;   // ln P
-  double slope;          // of ln(approach) against ln P there
-  Field start = {};      // a pressure like it [Pa]; empty: none
-  bool stopped = false;  // by the observer, on a coarser grid
+  double log_pressure;      // ln P
+  double slope;             // of ln(approach) against ln P there
+  PressureList start = {};  // a pressure like it; empty: none
+  bool stopped = false;     // by the observer, on a coarser grid
 };
 
 /// Search on one grid. approach: of the flat, from where it first touches [m].
@@ -66,7 +66,7 @@ class Search {
 
  private:
   bool is_near(const State& state) const;
-  State solve_at(double mean_pressure, const Field& start, double tolerance);
+  State solve_at(double mean_pressure, const PressureList& start, double tolerance);
   double error_of(const State& state) const;
 
   elastic::ElasticOperator& elasticity_;
@@ -81,7 +81,7 @@ class Search {
   Convergence work_;
 };
 
-State Search::solve_at(double mean_pressure, const Field& start, double tolerance) {
+State Search::solve_at(double mean_pressure, const PressureList& start, double tolerance) {
   const LoadProblem problem{problem_.height, mean_pressure, problem_.caps,
                             start,           tolerance,     problem_.max_iterations};
   State state = solve_load(elasticity_, problem, solver_, observer_);
@@ -168,8 +168,9 @@ double lone_pixel_pressure(const elastic::ElasticOperator& elasticity, const Loa
 Guess first_guess(const elastic::ElasticOperator& elasticity, const LoadProblem& problem,
                   double separation, const Observer& observer, double& fft_pairs) {
   const auto n = static_cast<double>(problem.height.size());
-  if (problem.start.size() > 0 && sum(problem.start) > 0) {
-    return {std::log(sum(problem.start) / n), kHertzSlope, problem.start};
+  if (!problem.start.empty()) {
+    const double load = sum(problem.start.map());
+    if (load > 0) return {std::log(load / n), kHertzSlope, problem.start};
   }
   const Field height = has_coarser(elasticity.grid()) ? halved(problem.height) : Field();
   if (height.size() == 0 || extent_of(height).highest <= separation) {
@@ -189,8 +190,9 @@ Guess first_guess(const elastic::ElasticOperator& elasticity, const LoadProblem&
     guess.stopped = search.run(guess, kRoughTolerance, kRoughAccuracy).convergence.stopped();
   }
   fft_pairs += (coarse_pairs + search.work().fft_pairs) * static_cast<double>(height.size()) / n;
-  guess.start = guess.stopped ? problem.start
-                              : doubled(guess.start, problem.height.rows(), problem.height.cols());
+  guess.start = guess.stopped
+                    ? problem.start
+                    : doubled(guess.start.map(), problem.height.rows(), problem.height.cols());
   return guess;
 }
 

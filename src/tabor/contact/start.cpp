@@ -80,8 +80,8 @@ Field starting_pressure(const elastic::ElasticOperator& elasticity, const LoadPr
                         const Observer& observer, Convergence& convergence) {
   const Grid& grid = elasticity.grid();
   Field pressure;
-  if (problem.start.size() > 0) {
-    pressure = problem.start;
+  if (!problem.start.empty()) {
+    pressure = problem.start.map();
   } else if (has_coarser(grid)) {
     const Field height = halved(problem.height);
     const LoadProblem coarse{height,

@@ -54,6 +54,12 @@ void move_to_large_pages(std::vector<T>& vector) {
   vector = std::move(moved);
 }
 
+/// Empties a vector and releases its memory, which the assignment of {} keeps.
+template <class T>
+void release(std::vector<T>& vector) {
+  std::vector<T>().swap(vector);
+}
+
 /// Releases the unused memory of a vector that fills less than half of its capacity.
 template <class T>
 void give_back_unused(std::vector<T>& vector) {

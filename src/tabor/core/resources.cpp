@@ -1,5 +1,6 @@
 #include "tabor/core/resources.hpp"
 
+#include <malloc.h>
 #include <sys/resource.h>
 
 #include <fstream>
@@ -23,6 +24,12 @@ std::size_t available_memory_bytes() {
     std::getline(meminfo, rest);
   }
   return 0;
+}
+
+void return_freed_memory() {
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
 }
 
 }  // namespace tabor

@@ -3,7 +3,7 @@
 #include <chrono>
 #include <cstddef>
 
-// Measures memory and wall-clock time of the process.
+// Measures memory and wall-clock time of the process, and gives memory back.
 namespace tabor {
 
 /// Returns the largest resident memory of this process so far [bytes].
@@ -12,6 +12,9 @@ std::size_t peak_memory_bytes();
 /// Returns the memory that this process could still take without swapping [bytes]; 0 if the system
 /// does not say.
 std::size_t available_memory_bytes();
+
+/// Gives memory that has been freed back to the system, where the C library can.
+void return_freed_memory();
 
 /// Measures the time since construction (wall clock).
 class Stopwatch {

@@ -1,7 +1,5 @@
 #include "tabor/deposition/catchments.hpp"
 
-#include <utility>
-
 #include "tabor/core/watch.hpp"
 
 namespace tabor::deposition {
@@ -9,13 +7,12 @@ namespace tabor::deposition {
 Catchments::Catchments(Pools& pools)
     : pools_(pools),
       drains_to_(static_cast<std::size_t>(pools.terrain().size()), kNoPool),
-      area_(pools.count(), 0),
       runs_to_(pools.count(), kNoPool) {
   drain_all();
-  for (const PoolId leaf : drains_to_) ++area_[static_cast<std::size_t>(leaf)];
-  for (std::size_t leaf = 0; leaf < area_.size(); ++leaf) {
-    if (area_[leaf] > 0) sources_.push_back({static_cast<PoolId>(leaf), area_[leaf]});
-    area_[leaf] = 0;
+  std::vector<std::int32_t> area(pools.count(), 0);
+  for (const PoolId leaf : drains_to_) ++area[static_cast<std::size_t>(leaf)];
+  for (std::size_t leaf = 0; leaf < area.size(); ++leaf) {
+    if (area[leaf] > 0) sources_.push_back({static_cast<PoolId>(leaf), area[leaf]});
   }
 }
 
@@ -55,15 +52,6 @@ void Catchments::drain_all() {
   }
 }
 
-void Catchments::rain(Volume film) {
-  for (std::size_t i = 0; i < sources_.size(); ++i) {
-    go_on_or_throw(i);
-    Source& source = sources_[i];
-    source.pool = pour(source.pool, film * source.area);
-  }
-  join_sources();
-}
-
 void Catchments::drain(const std::vector<Volume>& liquid) {
   std::vector<Volume> carried(pools_.count(), 0);
   for (std::size_t p = 0; p < liquid.size(); ++p) {
@@ -76,28 +64,11 @@ void Catchments::drain(const std::vector<Volume>& liquid) {
   }
 }
 
-/// Pours into the first pool that is not full, and into those it overflows to; returns the last.
-PoolId Catchments::pour(PoolId first, Volume carried) {
+/// Pours into the first pool that is not full, and into those it overflows to.
+void Catchments::pour(PoolId first, Volume carried) {
   while (carried > 0) {
     first = overflow(first);
     carried = pools_.pour(first, carried);
-  }
-  return first;
-}
-
-/// Joins the sources of each pool: it is full before any of its liquid runs on. So the next rain
-/// has only as many sources as there are pools that are not full.
-void Catchments::join_sources() {
-  std::size_t n_joined = 0;
-  for (const Source source : sources_) {
-    const PoolId pool = pools_.owner(source.pool);
-    std::int32_t& area = area_[static_cast<std::size_t>(pool)];
-    if (area == 0) sources_[n_joined++].pool = pool;
-    area += source.area;
-  }
-  sources_.resize(n_joined);
-  for (Source& source : sources_) {
-    source.area = std::exchange(area_[static_cast<std::size_t>(source.pool)], 0);
   }
 }
 

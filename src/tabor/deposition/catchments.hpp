@@ -18,10 +18,6 @@ class Catchments {
     std::int32_t area;
   };
 
-  /// Rains the same film [quanta] on every pixel. The result does not depend on the order of
-  /// pouring, so that raining a film in parts is the same as raining it at once.
-  void rain(Volume film);
-
   /// Lets liquid that lies on the pixels [quanta] run into the pools, once and without rain before.
   void drain(const std::vector<Volume>& liquid);
 
@@ -36,14 +32,12 @@ class Catchments {
   Pixel downhill(Pixel p) const;
   void drain_all();
   PoolId across_saddle(PoolId full);
-  PoolId pour(PoolId first, Volume carried);
-  void join_sources();
+  void pour(PoolId first, Volume carried);
 
   Pools& pools_;
-  std::vector<PoolId> drains_to_;   ///< per pixel: leaf pool, or kOcean
-  std::vector<Source> sources_;     ///< of all pixels, each pool once after a rain
-  std::vector<std::int32_t> area_;  ///< per pool: scratch of join_sources(), else zero
-  std::vector<PoolId> runs_to_;     ///< per full pool: where its overflow went last, or kNoPool
+  std::vector<PoolId> drains_to_;  ///< per pixel: leaf pool, or kOcean
+  std::vector<Source> sources_;    ///< of all pixels, by pools
+  std::vector<PoolId> runs_to_;    ///< per full pool: where its overflow went last, or kNoPool
   std::vector<PoolId> passed_;
 };
 

@@ -7,11 +7,13 @@
 #include <numeric>
 
 #include "tabor/core/error.hpp"
+#include "tabor/core/large_pages.hpp"
 #include "tabor/core/mirror_images.hpp"
 #include "tabor/core/resources.hpp"
 #include "tabor/core/units.hpp"
 #include "tabor/core/watch.hpp"
 #include "tabor/deposition/doses.hpp"
+#include "tabor/deposition/even_rain.hpp"
 #include "tabor/deposition/film_measures.hpp"
 #include "tabor/deposition/images.hpp"
 #include "tabor/deposition/pool_builder.hpp"
@@ -42,6 +44,17 @@ class Deposition {
       return;
     }
     rain(observer);
+  }
+
+  /// Rains in the limit of small droplets and finds which dose wets a pixel first.
+  std::vector<std::uint16_t> run(const Wetting& wetting, const Observer& observer) {
+    terrain_ = quantise(height_, dose_.edge);
+    Pools pools(terrain_, Ties::ordered);
+    release(terrain_.height);
+    std::vector<std::uint16_t> first;
+    rain_evenly(pools, doses(1), reached_in(pools),
+                {volumes(wetting.mean_films, terrain_, 1), wetting.where, first}, observer);
+    return first;
   }
 
  private:
@@ -78,14 +91,17 @@ class Deposition {
     terrain_ = quantise(height_, dose_.edge);
     const Ties ties = dose_.model == Model::droplets ? Ties::connected : Ties::ordered;
     Pools pools(terrain_, ties);
-    terrain_.height = {};
-    const auto reached = [&](std::size_t i, const RainState& state) { emit(i, state, pools); };
+    release(terrain_.height);
     if (dose_.model == Model::droplets) {
-      rain_droplets(pools, droplet(), dose_.reading, dose_.seed, doses(terrain_.size()), reached,
-                    observer);
+      rain_droplets(pools, droplet(), dose_.reading, dose_.seed, doses(terrain_.size()),
+                    reached_in(pools), observer);
     } else {
-      rain_evenly(pools, doses(1), reached, observer);
+      rain_evenly(pools, doses(1), reached_in(pools), observer);
     }
+  }
+
+  DoseReached reached_in(Pools& pools) {
+    return [this, &pools](std::size_t i, const RainState& state) { emit(i, state, pools); };
   }
 
   void emit(std::size_t i, const RainState& state, Pools& pools) {
@@ -173,6 +189,25 @@ void deposit(const Field& height, const Grid& grid, const Dose& dose, const Film
   const Grid grid_on_image = grid_of_image(grid);
   const FilmSink mirror = [&](Film&& film) { sink(with_images(std::move(film), dose.edge)); };
   Deposition(image, grid_on_image, on_image, mirror).run(observer);
+}
+
+std::vector<std::uint16_t> first_wetting_doses(const Field& height, const Grid& grid,
+                                               const Dose& dose, const Wetting& wetting,
+                                               const FilmSink& sink, const Observer& observer) {
+  const Watch watch(observer, "pools");
+  Dose all = dose;
+  all.mean_films.insert(all.mean_films.end(), wetting.mean_films.begin(), wetting.mean_films.end());
+  check(height, grid, all);
+  check(grid, dose, wetting);
+  if (!rains_on_one_image(height, dose)) {
+    return Deposition(height, grid, dose, sink).run(wetting, observer);
+  }
+  const Field image = first_image(height);
+  const Dose on_image = dose_of_image(dose);
+  const FilmSink mirror = [&](Film&& film) { sink(with_images(std::move(film), dose.edge)); };
+  return with_images(
+      Deposition(image, grid_of_image(grid), on_image, mirror).run(of_image(wetting), observer),
+      grid, wetting);
 }
 
 std::vector<Film> deposit(const Field& height, const Grid& grid, const Dose& dose,

@@ -84,12 +84,19 @@ std::vector<Film> deposit(const Field& height, const Grid& grid, const Dose& dos
 void deposit(const Field& height, const Grid& grid, const Dose& dose, const FilmSink& sink,
              const Observer& observer = {});
 
-/// Returns, row by row, the first dose that wets each pixel of `where`: its place in
-/// dose.mean_films, at most 65535 that rise, or their number where none does and elsewhere. One run
-/// through all doses; no film is made. For the limit of small droplets alone. Throws as deposit().
+/// Question which dose of Model::limit wets each pixel first.
+struct Wetting {
+  std::vector<double> mean_films;  ///< [m], >= 0, at most 65535 that rise
+  Mask where;                      ///< pixels asked for, shape of the height; empty for all
+};
+
+/// Returns, row by row, the first dose that wets each pixel of `wetting.where`: its place in
+/// wetting.mean_films, or their number where none does and elsewhere. The films of `dose`, which
+/// may have none, are laid down in the same run. For the limit of small droplets alone. Throws as
+/// deposit().
 std::vector<std::uint16_t> first_wetting_doses(const Field& height, const Grid& grid,
-                                               const Dose& dose, const Mask& where,
-                                               const Observer& observer = {});
+                                               const Dose& dose, const Wetting& wetting,
+                                               const FilmSink& sink, const Observer& observer = {});
 
 /// Liquid that has come to rest.
 struct Settled {

@@ -2,7 +2,11 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
+#include <string>
 
 #include "tabor/core/error.hpp"
 #include "tabor/core/units.hpp"
@@ -35,6 +39,25 @@ void check(const Field& height, const Grid& grid, const Dose& dose) {
   if (!(dose.droplet_height > 0 && std::isfinite(dose.droplet_height))) {
     throw InputError("<droplet_height>", fmt::format("{} m", dose.droplet_height), "more than zero",
                      "the droplet's volume is this height times the pixel area, e.g. 0.1 um");
+  }
+}
+
+void check(const Grid& grid, const Dose& dose, const Wetting& wetting) {
+  constexpr auto most = std::numeric_limits<std::uint16_t>::max();
+  if (dose.model != Model::limit ||
+      !std::is_sorted(wetting.mean_films.begin(), wetting.mean_films.end())) {
+    throw InputError("doses that wet a pixel first", std::string(name(dose.model)) + ", any order",
+                     "rising doses of the limit of small droplets", "");
+  }
+  if (wetting.mean_films.size() > most) {
+    throw InputError("doses that wet a pixel first", fmt::format("{}", wetting.mean_films.size()),
+                     fmt::format("{} at most", most), "");
+  }
+  if (wetting.where.size() > 0 &&
+      (wetting.where.rows() != grid.ny || wetting.where.cols() != grid.nx)) {
+    throw InputError("pixels that a dose wets first",
+                     fmt::format("a map of {} x {}", wetting.where.cols(), wetting.where.rows()),
+                     fmt::format("{} x {} as the heights", grid.nx, grid.ny), "");
   }
 }
 

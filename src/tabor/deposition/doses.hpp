@@ -11,6 +11,9 @@ namespace tabor::deposition {
 /// Throws InputError for a surface or a dose that no liquid can be laid on.
 void check(const Field& height, const Grid& grid, const Dose& dose);
 
+/// Throws InputError where no first of the doses that wets a pixel can be found.
+void check(const Grid& grid, const Dose& dose, const Wetting& wetting);
+
 /// Returns the volumes of mean films [m] on `n_pixels` pixels [quanta]. Throws InputError where one
 /// is more than whole numbers can hold on all pixels.
 std::vector<Volume> volumes(const std::vector<double>& mean_films, const Terrain& terrain,

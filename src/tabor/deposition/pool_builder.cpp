@@ -143,7 +143,7 @@ void PoolBuilder::build() {
     begin = end;
   }
   to_.last_ = grown(pool_at(0));
-  into_ = {};
+  release(into_);
   forget_absorbed();
   go_on_or_throw();
   number_by_place();

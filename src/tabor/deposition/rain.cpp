@@ -6,7 +6,6 @@
 #include "tabor/core/parallel.hpp"
 #include "tabor/core/random.hpp"
 #include "tabor/core/watch.hpp"
-#include "tabor/deposition/catchments.hpp"
 #include "tabor/deposition/router.hpp"
 
 namespace tabor::deposition {
@@ -126,19 +125,6 @@ void rain_droplets(Pools& pools, Height droplet, Reading reading, std::uint64_t 
     }
     if (pools.replete()) rain.rain_beyond(doses[i]);
     reached(i, rain.state());
-  }
-}
-
-void rain_evenly(Pools& pools, const std::vector<Volume>& films, const DoseReached& reached,
-                 const Observer& observer) {
-  Watch watch(observer, "fill");
-  Catchments catchments(pools);
-  Volume film = 0;
-  for (std::size_t i = 0; i < films.size(); ++i) {
-    watch.tell(static_cast<double>(i) / static_cast<double>(films.size()));
-    catchments.rain(films[i] - film);
-    film = films[i];
-    reached(i, {.dosed = film * pools.terrain().size()});
   }
 }
 

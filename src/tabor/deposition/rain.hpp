@@ -4,7 +4,7 @@
 
 #include "tabor/deposition/pools.hpp"
 
-// Rains droplets, or an even film, on a tree of pools until each dose is reached.
+// Rains droplets on a tree of pools until each dose is reached.
 namespace tabor::deposition {
 
 /// Amount rained so far, in whole numbers.
@@ -23,11 +23,5 @@ using DoseReached = std::function<void(std::size_t dose, const RainState& state)
 void rain_droplets(Pools& pools, Height droplet, Reading reading, std::uint64_t seed,
                    const std::vector<Volume>& doses, const DoseReached& reached,
                    const Observer& observer);
-
-/// Rains vanishing droplets, the same on each pixel: fill, spill, merge (Barnes, Callaghan &
-/// Wickert 2020, doi:10.5194/esurf-8-431-2020). Doses are films (ascending, in quanta). Needs pools
-/// with ordered ties. A pool receives the rain of its catchment.
-void rain_evenly(Pools& pools, const std::vector<Volume>& films, const DoseReached& reached,
-                 const Observer& observer);
 
 }  // namespace tabor::deposition

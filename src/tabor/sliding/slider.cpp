@@ -9,6 +9,7 @@
 
 #include "tabor/core/error.hpp"
 #include "tabor/core/loops.hpp"
+#include "tabor/core/resources.hpp"
 #include "tabor/core/rows.hpp"
 #include "tabor/core/units.hpp"
 
@@ -230,11 +231,10 @@ contact::Problem Slider::pressing(Field height) const {
 Ploughing Slider::press(Index pixels, const Observer& observer) {
   caps_ = next_caps();
   contact::Problem problem = pressing(pressed_height(pixels));
-  problem.start = std::move(state_.pressure);
-  state_.displacement.resize(0, 0);  // memory for the solver
-  state_.gap.resize(0, 0);
+  problem.start = state_.pressure;
+  for (Field* map : {&state_.pressure, &state_.displacement, &state_.gap}) map->resize(0, 0);
   contact::State dry = contact::solve(elasticity_, problem, contact::Solver::fast, observer);
-  if (dry.convergence.stopped()) state_.pressure = std::move(problem.start);
+  if (dry.convergence.stopped()) state_.pressure = problem.start.map();
   throw_if_stopped(dry.convergence);
   if (problem_.oil) {
     const contact::GapLiquid liquid{.film = problem_.oil->film,
@@ -242,7 +242,7 @@ Ploughing Slider::press(Index pixels, const Observer& observer) {
                                     .periodic = problem_.oil->periodic};
     contact::TrappedState trapped =
         contact::solve_trapped(elasticity_, problem, liquid, dry, observer);
-    if (trapped.contact.convergence.stopped()) state_.pressure = std::move(problem.start);
+    if (trapped.contact.convergence.stopped()) state_.pressure = problem.start.map();
     throw_if_stopped(trapped.contact.convergence);
     trapped_ = std::move(trapped);
   }
@@ -252,6 +252,7 @@ Ploughing Slider::press(Index pixels, const Observer& observer) {
             problem_.mean_pressure * state_.separation;
   problem = {};  // memory for what follows
   elasticity_.free_memory();
+  return_freed_memory();
   return settle();
 }
 

@@ -90,14 +90,22 @@ struct FrictionGraph::Shared {
     return operators.borrow(settings().contact, grid);
   }
 
-  void lay_films(const engine::Monitor& monitor) {
+  /// One tree of pools serves the films and the doses where both are of the limit.
+  bool finds_doses_with_films() const { return settings().film.model == deposition::Model::limit; }
+
+  void lay_films(bool has_wet_shares, const engine::Monitor& monitor) {
     const auto surface = store->surface(monitor);
     store->store_films(surface, [&](const auto& receive) {
-      cases::film_state(*surface, settings().film, receive, monitor.own);
+      if (has_wet_shares && finds_doses_with_films()) {
+        doses = cases::wetting_doses(*surface, settings().film, receive, monitor.own);
+      } else {
+        cases::film_state(*surface, settings().film, receive, monitor.own);
+      }
     });
   }
 
   void find_doses(const engine::Monitor& monitor) {
+    if (!doses.first.empty()) return;  // found with the films
     doses = cases::wetting_doses(*store->surface(monitor), settings().film, monitor.own);
   }
 
@@ -216,8 +224,10 @@ engine::Job FrictionGraph::brief_job_of(const FrictionPlace& place,
 }
 
 void FrictionGraph::add_rain(bool has_wet_shares) {
-  engine::Job film = job_of({FrictionJob::film},
-                            [shared = shared_](const engine::Monitor& m) { shared->lay_films(m); });
+  engine::Job film =
+      job_of({FrictionJob::film}, [shared = shared_, has_wet_shares](const engine::Monitor& m) {
+        shared->lay_films(has_wet_shares, m);
+      });
   film.is_serial = true;
   film_ = add(std::move(film), {});
   if (!has_wet_shares) return;
@@ -225,7 +235,8 @@ void FrictionGraph::add_rain(bool has_wet_shares) {
       job_of({FrictionJob::wetting_doses},
              [shared = shared_](const engine::Monitor& m) { shared->find_doses(m); });
   doses.is_serial = true;
-  doses_ = add(std::move(doses), {});
+  const bool waits = shared_->finds_doses_with_films();
+  doses_ = add(std::move(doses), waits ? std::vector{film_} : std::vector<std::size_t>());
 }
 
 void FrictionGraph::add_contact(std::size_t pressure, const std::vector<std::size_t>& needs) {

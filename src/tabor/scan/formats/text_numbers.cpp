@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "tabor/core/large_pages.hpp"
 #include "tabor/core/parallel.hpp"
 #include "tabor/core/text.hpp"
 
@@ -283,7 +284,7 @@ void append(TextNumbers& numbers, Block& block, std::size_t first_line) {
     numbers.values.insert(numbers.values.end(), block.numbers.values.begin(),
                           block.numbers.values.end());
   }
-  block.numbers.values = {};
+  release(block.numbers.values);
   for (TextRows rows : block.numbers.rows) {
     rows.first_line += first_line;
     const bool continues =

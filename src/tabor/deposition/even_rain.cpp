@@ -1,21 +1,13 @@
-#include <fmt/core.h>
+#include "tabor/deposition/even_rain.hpp"
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdint>
-#include <limits>
+#include <iterator>
 #include <numeric>
-#include <string>
 #include <utility>
-#include <vector>
 
-#include "tabor/core/error.hpp"
-#include "tabor/core/mirror_images.hpp"
 #include "tabor/core/watch.hpp"
 #include "tabor/deposition/catchments.hpp"
-#include "tabor/deposition/deposition.hpp"
-#include "tabor/deposition/doses.hpp"
-#include "tabor/deposition/images.hpp"
 
 namespace tabor::deposition {
 namespace {
@@ -29,17 +21,19 @@ class PixelsOfPools {
     std::int32_t end = 0;
   };
 
-  PixelsOfPools(const Pools& pools, const Mask& where)
-      : entries_(static_cast<std::size_t>(where.count())) {
-    const auto n_pixels = static_cast<Pixel>(where.size());
-    ends_.assign(pools.count() + 1, 0);
+  PixelsOfPools() = default;  ///< no pixels
+  /// All pixels if the mask is empty.
+  PixelsOfPools(const Pools& pools, const Mask& where) : ends_(pools.count() + 1, 0) {
+    const Pixel n_pixels = pools.terrain().size();
+    const auto is_asked = [&where](Pixel p) { return where.size() == 0 || where.data()[p]; };
     for (Pixel p = 0; p < n_pixels; ++p) {
-      if (where.data()[p]) ++ends_[place(pools.pool_at(p)) + 1];
+      if (is_asked(p)) ++ends_[place(pools.pool_at(p)) + 1];
     }
     std::partial_sum(ends_.begin(), ends_.end(), ends_.begin());
+    entries_.resize(place(ends_.back()));
     std::vector<std::int32_t> next(ends_.begin(), ends_.end() - 1);
     for (Pixel p = 0; p < n_pixels; ++p) {
-      if (where.data()[p]) entries_[place(next[place(pools.pool_at(p))]++)] = {pools.height(p), p};
+      if (is_asked(p)) entries_[place(next[place(pools.pool_at(p))]++)] = {pools.height(p), p};
     }
     for (std::size_t pool = 0; pool + 1 < ends_.size(); ++pool) {
       if (ends_[pool] == ends_[pool + 1]) continue;
@@ -49,7 +43,9 @@ class PixelsOfPools {
     }
   }
 
-  Part of(PoolId pool) const { return {ends_[place(pool)], ends_[place(pool) + 1]}; }
+  Part of(PoolId pool) const {
+    return ends_.empty() ? Part{} : Part{ends_[place(pool)], ends_[place(pool) + 1]};
+  }
   Height height(std::int32_t entry) const { return entries_[place(entry)].height; }
   Pixel pixel(std::int32_t entry) const { return entries_[place(entry)].pixel; }
 
@@ -67,16 +63,18 @@ class PixelsOfPools {
 
 /// Rains evenly, dose by dose, and notes which dose wets a pixel first. What a pool holds is
 /// proportional to the dose until it is full or another one spills into it: it is looked at only
-/// then, and when it wets a pixel.
-class WettingRain {
+/// then, when it wets a pixel, and when a film is asked for.
+class EvenRain {
  public:
-  WettingRain(Pools& pools, const Mask& where, const std::vector<Volume>& films)
+  /// `films` holds those of `wetting`, whose lists must outlive the rain.
+  EvenRain(Pools& pools, std::vector<Volume> films, const FirstWetting& wetting)
       : pools_(pools),
         catchments_(pools),
-        dry_(pools, where),
-        films_(films),
+        dry_(wetting.films.empty() ? PixelsOfPools() : PixelsOfPools(pools, wetting.where)),
+        wetting_(wetting),
+        films_(std::move(films)),
         states_(pools.count()),
-        due_(films.size()) {
+        due_(films_.size()) {
     for (const Catchments::Source& source : catchments_.sources()) {
       state(source.pool).catchment = source.area;
       due_.front().push_back(source.pool);
@@ -86,15 +84,25 @@ class WettingRain {
     }
   }
 
-  void run(std::vector<std::uint16_t>& first, const Observer& observer) {
+  /// Calls `reached` at those of the doses that are `asked`.
+  void run(const std::vector<Volume>& asked, const DoseReached& reached, const Observer& observer) {
     Watch watch(observer, "fill");
+    std::size_t n_reached = 0;
     for (dose_ = 0; dose_ < films_.size(); ++dose_) {
       watch.tell(static_cast<double>(dose_) / static_cast<double>(films_.size()));
+      wets_ = static_cast<std::uint16_t>(
+          std::lower_bound(wetting_.films.begin(), wetting_.films.end(), films_[dose_]) -
+          wetting_.films.begin());
       const std::vector<PoolId> due = std::exchange(due_[dose_], {});
       for (std::size_t i = 0; i < due.size(); ++i) {
         go_on_or_throw(i);
         if (i + kFar < due.size()) prefetch(due[i + kFar]);
-        if (state(due[i]).due == dose_) look(due[i], first);
+        if (state(due[i]).due == dose_) look(due[i]);
+      }
+      if (n_reached == asked.size() || asked[n_reached] != films_[dose_]) continue;
+      bring_to_dose();
+      while (n_reached < asked.size() && asked[n_reached] == films_[dose_]) {
+        reached(n_reached++, {.dosed = films_[dose_] * pools_.terrain().size()});
       }
     }
   }
@@ -107,8 +115,8 @@ class WettingRain {
   struct State {
     Volume missing = 0;          ///< until it is full or wets a pixel; not known if not positive
     std::int32_t catchment = 0;  ///< pixels whose rain it takes
-    std::uint16_t n_rained = 0;  ///< doses whose rain it has taken
-    std::uint16_t due = 0;       ///< dose at which it is looked at
+    std::uint32_t n_rained = 0;  ///< doses whose rain it has taken
+    std::uint32_t due = 0;       ///< dose at which it is looked at
     PixelsOfPools::Part dry;     ///< its own pixels
     std::int32_t rest = kNone;  ///< the first of rests_: pixels of its children at its lowest level
   };
@@ -129,17 +137,17 @@ class WettingRain {
   }
 
   /// Pours the rain of a pool since the last look into it, and what it cannot hold into the next.
-  void look(PoolId id, std::vector<std::uint16_t>& first) {
+  void look(PoolId id) {
     Volume carried = take_rain(id);
     while (true) {
       if (!pools_[id].full()) {
         const Volume left = pools_.pour(id, carried);
         state(id).missing -= carried - left;
         carried = left;
-        if (state(id).missing <= 0) wet(id, first);
+        if (state(id).missing <= 0) wet(id);
       }
       if (!pools_[id].full()) break;
-      state(id).due = static_cast<std::uint16_t>(films_.size());  // never again
+      state(id).due = static_cast<std::uint32_t>(films_.size());  // never again
       pass_on_dry_pixels(id);
       const PoolId next = catchments_.overflow(id);
       carried += take_rain(next);
@@ -149,27 +157,38 @@ class WettingRain {
     if (id != kOcean || pools_.terrain().edge != Edge::open) schedule(id);
   }
 
+  /// Pours the rain since their last look into all pools: none is full by it, or it had been due.
+  void bring_to_dose() {
+    const auto n_pools = static_cast<PoolId>(states_.size());
+    for (PoolId id = 0; id < n_pools; ++id) {
+      if (state(id).catchment == 0) continue;
+      const Volume rain = take_rain(id);
+      pools_.pour(id, rain);
+      state(id).missing -= rain;
+    }
+  }
+
   /// The rain on its catchment since the last look.
   Volume take_rain(PoolId id) {
     State& of = state(id);
-    const std::size_t before = std::exchange(of.n_rained, static_cast<std::uint16_t>(dose_ + 1));
+    const std::size_t before = std::exchange(of.n_rained, static_cast<std::uint32_t>(dose_ + 1));
     return of.catchment * (films_[dose_] - film(before));
   }
 
-  void wet(PoolId id, std::vector<std::uint16_t>& first) {
+  void wet(PoolId id) {
     State& of = state(id);
     const bool floods = pools_.terrain().edge != Edge::open && pools_.beyond() > 0;
     const Height level = floods ? kNoRim : pools_[id].level;
-    wet(of.dry, level, first);
+    wet(of.dry, level);
     for (std::int32_t& number = of.rest; number != kNone; number = rest(number).next) {
-      wet(rest(number).dry, level, first);
+      wet(rest(number).dry, level);
       if (rest(number).dry.begin < rest(number).dry.end) return;
     }
   }
 
-  void wet(PixelsOfPools::Part& part, Height level, std::vector<std::uint16_t>& first) {
+  void wet(PixelsOfPools::Part& part, Height level) {
     for (; part.begin < part.end && level > dry_.height(part.begin); ++part.begin) {
-      first[static_cast<std::size_t>(dry_.pixel(part.begin))] = static_cast<std::uint16_t>(dose_);
+      wetting_.first[static_cast<std::size_t>(dry_.pixel(part.begin))] = wets_;
     }
   }
 
@@ -198,7 +217,7 @@ class WettingRain {
     if (of.missing <= 0) of.missing = pools_.volume_to(id, next_wetting_level(id));
     const Volume needed = films_[dose_] + (of.missing + of.catchment - 1) / of.catchment;
     const auto due = std::lower_bound(films_.begin(), films_.end(), needed) - films_.begin();
-    of.due = static_cast<std::uint16_t>(due);
+    of.due = static_cast<std::uint32_t>(due);
     if (of.due < films_.size()) due_[of.due].push_back(id);
   }
 
@@ -212,66 +231,38 @@ class WettingRain {
   Pools& pools_;
   Catchments catchments_;
   PixelsOfPools dry_;
-  const std::vector<Volume>& films_;  ///< the doses, rising [quanta]
+  const FirstWetting& wetting_;
+  std::vector<Volume> films_;  ///< all doses, each once, rising [quanta]
   std::size_t dose_ = 0;
+  std::uint16_t wets_ = 0;     ///< the first wetting dose that is not below it
   std::vector<State> states_;  ///< per pool
   std::vector<Rest> rests_;
   std::vector<std::vector<PoolId>> due_;  ///< per dose
 };
 
-/// Row by row the first dose that wets each pixel of `where`.
-std::vector<std::uint16_t> first_doses(const Field& height, const Dose& dose, const Mask& where,
-                                       const Observer& observer) {
-  Terrain terrain = quantise(height, dose.edge);
-  Pools pools(terrain, Ties::ordered);
-  terrain.height = {};
-  const std::vector<Volume> films = volumes(dose.mean_films, terrain, 1);
-  std::vector<std::uint16_t> first(static_cast<std::size_t>(height.size()),
-                                   static_cast<std::uint16_t>(films.size()));
-  WettingRain(pools, where, films).run(first, observer);
-  return first;
-}
-
-void check_rising(const Dose& dose) {
-  if (dose.model != Model::limit ||
-      !std::is_sorted(dose.mean_films.begin(), dose.mean_films.end())) {
-    throw InputError("doses that wet a pixel first", std::string(name(dose.model)) + ", any order",
-                     "rising doses of the limit of small droplets", "");
-  }
-  constexpr std::size_t most = std::numeric_limits<std::uint16_t>::max();
-  if (dose.mean_films.size() > most) {
-    throw InputError("doses that wet a pixel first", fmt::format("{}", dose.mean_films.size()),
-                     fmt::format("{} at most", most), "");
-  }
+/// All doses, each once, rising.
+std::vector<Volume> joined(const std::vector<Volume>& a, const std::vector<Volume>& b) {
+  std::vector<Volume> all;
+  all.reserve(a.size() + b.size());
+  std::merge(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(all));
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all;
 }
 
 }  // namespace
 
-std::vector<std::uint16_t> first_wetting_doses(const Field& height, const Grid& grid,
-                                               const Dose& dose, const Mask& where,
-                                               const Observer& observer) {
-  const Watch watch(observer, "pools");
-  check(height, grid, dose);
-  check_rising(dose);
-  if (where.rows() != grid.ny || where.cols() != grid.nx) {
-    throw InputError("pixels that a dose wets first",
-                     fmt::format("a map of {} x {}", where.cols(), where.rows()),
-                     fmt::format("{} x {} as the heights", grid.nx, grid.ny), "");
-  }
-  if (!rains_on_one_image(height, dose)) return first_doses(height, dose, where, observer);
-  const Mask on_any_image =
-      where || where.rowwise().reverse() || where.colwise().reverse() || where.reverse();
-  const Index ny = grid.ny / 2;
-  const Index nx = grid.nx / 2;
-  const std::vector<std::uint16_t> of_image = first_doses(
-      first_image(height), dose_of_image(dose), on_any_image.topLeftCorner(ny, nx), observer);
-  using Doses = Eigen::Array<std::uint16_t, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  std::vector<std::uint16_t> first(static_cast<std::size_t>(height.size()));
-  Eigen::Map<Doses> all(first.data(), grid.ny, grid.nx);
-  all = mirror_images<Doses>(Eigen::Map<const Doses>(of_image.data(), ny, nx));
-  const auto none = static_cast<std::uint16_t>(dose.mean_films.size());
-  all = where.select(all, none);
-  return first;
+void rain_evenly(Pools& pools, const std::vector<Volume>& films, const DoseReached& reached,
+                 const Observer& observer) {
+  std::vector<std::uint16_t> none;
+  const Mask nowhere;
+  EvenRain(pools, joined(films, {}), {{}, nowhere, none}).run(films, reached, observer);
+}
+
+void rain_evenly(Pools& pools, const std::vector<Volume>& films, const DoseReached& reached,
+                 const FirstWetting& wetting, const Observer& observer) {
+  wetting.first.assign(static_cast<std::size_t>(pools.terrain().size()),
+                       static_cast<std::uint16_t>(wetting.films.size()));
+  EvenRain(pools, joined(films, wetting.films), wetting).run(films, reached, observer);
 }
 
 }  // namespace tabor::deposition
