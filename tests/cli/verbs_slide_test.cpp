@@ -88,9 +88,15 @@ TEST_F(SlideVerb, SaysWhereItEndedIfThatIsAnotherPlace) {
   const Outcome whole = run_tabor(words(kShort));
   EXPECT_THAT(whole.out, HasSubstr("4 steps of 1 µm, displaced"));
   const Outcome part = run_tabor(words({"--distance", "3.4um", "--step", "2um"}));
-  EXPECT_THAT(part.out, HasSubstr("2 steps of 2 µm to 3 µm (whole pixels)"));
+  EXPECT_THAT(part.out, HasSubstr("1 step of 2 µm and one of 1 µm to 3 µm (whole pixels)"));
   const Outcome one = run_tabor(words({"--distance", "1um", "--step", "1um"}));
   EXPECT_THAT(one.out, HasSubstr("1 step of 1 µm"));
+}
+
+TEST_F(SlideVerb, RejectsAFateOfOilWithoutOil) {
+  const Outcome outcome = run_tabor(words(kShort + Words{"--liquid", "kept"}));
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("--liquid needs oil; give --density"));
 }
 
 TEST_F(SlideVerb, ProposesAWearCoefficientAsItTakesIt) {

@@ -10,6 +10,7 @@
 #include "support/validation.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/metrology/areal/parameters.hpp"
+#include "tabor/numerics/field_statistics.hpp"
 #include "tabor/topography/filters.hpp"
 #include "tabor/topography/geometry.hpp"
 
@@ -258,7 +259,10 @@ TEST(PowerSpectra, WindowByDefaultWhoseEdgesDoNotMatch) {
   auto rough = noise(kGrid);
   for (Index x = 0; x < kGrid.nx; ++x) rough.height.col(x) += 1e-6 * static_cast<double>(x);
   EXPECT_EQ(power_spectra(rough).window, PsdWindow::hann);
-  EXPECT_NE(power_spectra(rough).window_gain, 1);
+  const auto spectra = power_spectra(rough);
+  EXPECT_DOUBLE_EQ(spectra.window_gain,
+                   std::pow(spectra.rms_height / numerics::rms_height(rough.height), 2));
+  EXPECT_GT(std::abs(spectra.window_gain - 1), 0.01);
   rough.periodic = true;
   EXPECT_EQ(power_spectra(rough).window, PsdWindow::none);
   EXPECT_EQ(power_spectra(rough).window_gain, 1);
@@ -321,6 +325,10 @@ TEST(PowerSpectra, RejectAFitThatEndsBeforeItBegins) {
   EXPECT_THROW(power_spectra(rough, {.window = {}, .fit_q_min = 2e4, .fit_q_max = 1e4}),
                InputError);
   EXPECT_NO_THROW(power_spectra(rough, {.window = {}, .fit_q_min = 1e4, .fit_q_max = 2e4}));
+  EXPECT_THROW(power_spectra(rough, {.window = {}, .fit_q_min = 1e12, .fit_q_max = {}}),
+               InputError);
+  EXPECT_THROW(power_spectra(rough, {.window = {}, .fit_q_min = {}, .fit_q_max = 1e-3}),
+               InputError);
 }
 
 TEST(PowerSpectra, GiveTheSameBitsOnAnyNumberOfThreads) {

@@ -7,6 +7,7 @@
 #include "tabor/engine/plan.hpp"
 #include "tabor/io/hdf5/hdf5.hpp"
 #include "tabor/io/text/csv.hpp"
+#include "tabor/results/citations.hpp"
 #include "tabor/study/record.hpp"
 #include "tabor/study/tables.hpp"
 
@@ -447,6 +448,14 @@ TEST(Sweep, ResultsHoldWhatTheRunWarnedOf) {
   const io::Hdf5Reader results(example.results() / "results.h5");
   EXPECT_EQ(results.attribute_texts("/", "warnings"), lines);
   EXPECT_EQ(results.attribute_texts("/", "warning_classes"), classes);
+}
+
+TEST(Sweep, ItsFolderIsCitedAsItsResults) {
+  const ExampleStudy example;
+  example.run();
+  const results::ReferenceKeys keys = results::references_in(example.results() / "results.h5");
+  EXPECT_GT(keys.size(), 3U);
+  EXPECT_EQ(results::references_in(example.results()), keys);
 }
 
 }  // namespace

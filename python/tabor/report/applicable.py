@@ -20,8 +20,8 @@ def check(source, options):
         return
     if source.kind != "study":
         raise UsageError(
-            f"{_flag(given[0])}: got {source.path}; expected the result of a study; "
-            f"{_DRAWN_INSTEAD[source.kind]}: leave {_flag(given[0])} out"
+            f"{_flag(given[0])} chooses among the cases of a study, and {source.path} is none: "
+            f"{_DRAWN_INSTEAD[source.kind]}; leave {_flag(given[0])} out"
         )
     if options.scan is not None and options.all_scans:
         raise UsageError("--scan and --all-scans: got both; expected one of them")

@@ -65,7 +65,7 @@ const Columns<FilmRecord>& film_columns() {
   using deposition::Film;
   using Record = FilmRecord;
   static const Columns<Film> film{
-      {"mean_film_m", "m", "mean film", &Film::mean_film},
+      {"mean_film_m", "m", "oil as film", &Film::mean_film},
       {"n_droplets", "", "", &Film::n_droplets},
       {"wet_fraction", "", "wet", &Film::wet_fraction, kPercent},
       {"max_film_m", "m", "max film", &Film::max_film},

@@ -27,13 +27,14 @@ int show(const std::vector<std::string>& files, Context& context) {
 
 Verb cite_verb() {
   return {.name = "cite",
-          .arguments = "[RESULT.h5 ...]",
+          .arguments = "[RESULT ...]",
           .summary = "print BibTeX entries for the methods of a result, or for all methods",
           .examples = {"tabor cite", "tabor cite --json"},
           .declare = [](OptionSet& set) -> Action {
             const auto files = std::make_shared<std::vector<std::string>>();
             set.group("Results");
-            Option& results = set.positionals("RESULT", "result files", *files);
+            Option& results =
+                set.positionals("RESULT", "result files, or folders of studies", *files);
             results.required = false;
             results.names = FileRole::input;
             return [files](Context& context) { return show(*files, context); };

@@ -207,6 +207,9 @@ void check_for_one_scan(const Request& request) {
 
 int show(Request request, Context& context) {
   check_for_one_scan(request);
+  if (request.settings.contact.statistics && !context.json) {
+    throw UsageError("--statistics adds to the JSON object; give --json, too");
+  }
   check_all(request, false);
   find_tool(request.settings.contact, context);
   if (request.files.size() > 1) return show_many(request, context);

@@ -166,9 +166,10 @@ void describe(const cases::FilmSettings& settings, Facts& facts) {
     text += fmt::format(" of {}, {}, seed {}", si(settings.droplet_height, "m"),
                         deposition::kReadings.of(settings.reading), settings.seed);
   }
-  facts.fact("lubricant",
-             fmt::format("{}, {} edge, oil {} kg/m^3", text, deposition::kEdges.of(settings.edge),
-                         plain(settings.oil_density)));
+  const bool runs_down =
+      settings.model == deposition::Model::droplets || settings.model == deposition::Model::limit;
+  if (runs_down) text += fmt::format(", {} edge", deposition::kEdges.of(settings.edge));
+  facts.fact("lubricant", fmt::format("{}, oil {} kg/m^3", text, plain(settings.oil_density)));
 }
 
 void describe(const cases::TrappedSettings& settings, Facts& facts) {

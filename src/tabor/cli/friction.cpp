@@ -222,7 +222,9 @@ std::string curves_text(const Solved& solved, const Request& request) {
   for (const cases::DensityCurve& curve : solved.curves) {
     describe(curve, results::asked_at(curve.mean_pressure, solved.records), facts);
     if (!request.density_curve) continue;
-    Table table({"density at " + si(curve.mean_pressure, "Pa"), "wet share", "friction wet"});
+    const bool is_limit = request.settings.film.model == deposition::Model::limit;
+    Table table({"density at " + si(curve.mean_pressure, "Pa"),
+                 is_limit ? "wet share" : "wet share of vanishing droplets", "friction wet"});
     for (std::size_t i = 0; i < curve.lubricant_densities.size(); ++i) {
       table.row({results::density_text(curve.lubricant_densities[i]),
                  percent(curve.lubricated_shares[i]), plain(curve.friction_lubricated[i], 4)});
@@ -398,8 +400,10 @@ Verb friction_verb() {
                    "repeat with pixels twice and four times as large and with low-passes, to show "
                    "how wet share and friction depend on the pixel",
                    request->resolution_scan);
-        set.toggle("--density-curve", "print friction against the density of the oil",
-                   request->density_curve);
+        set.toggle(
+            "--density-curve",
+            "print friction against the density of the oil, in the limit of vanishing droplets",
+            request->density_curve);
         declare_fields(set, request->file);
         return [request](Context& context) {
           take_edges(request->scan, request->settings.contact);

@@ -61,7 +61,7 @@ int generate(const Request& request, Context& context) {
   facts.fact("pixels", fmt::format("{} x {} of {} x {}", surface.grid.nx, surface.grid.ny,
                                    si(surface.grid.dx(), "m"), si(surface.grid.dy(), "m")));
   facts.fact("rms height", si(rms, "m"));
-  facts.fact("rms slope", plain(slope));
+  facts.fact("rms slope", plain(slope) + " (between neighbouring pixels)");
   return finish(context, object, facts.text());
 }
 

@@ -33,6 +33,10 @@ struct Request {
 void check_all(const Request& request) {
   const cases::CaseSettings& settings = request.settings;
   check(cases::objection(request.sliding, settings, flag_of));
+  const bool has_oil = !settings.film.lubricant_densities.empty();
+  if (!has_oil && request.sliding.liquid != cases::SlidingOil::both) {
+    throw UsageError("--liquid needs oil; give --density");
+  }
   check_contact(settings);
   check(cases::objection(settings.film));
   check(cases::objection(settings.friction, flag_of, settings.contact.material));
@@ -42,11 +46,19 @@ std::string steps_of(std::uint64_t n, double length) {
   return fmt::format("{} {} of {}", n, n == 1 ? "step" : "steps", si(length, "m"));
 }
 
+/// The steps, of which the last may be shorter.
+std::string steps_to(double distance, std::uint64_t n, double length) {
+  constexpr double same = 0.01;  // of a step
+  const double last = distance - static_cast<double>(n - 1) * length;
+  if (n < 2 || !(last > 0) || last > (1 - same) * length) return steps_of(n, length);
+  return fmt::format("{} and one of {}", steps_of(n - 1, length), si(last, "m"));
+}
+
 /// The steps; then the distance where it is another than asked for, as steps are whole pixels.
 std::string steps_and_end(const Request& request, const cases::SlideResult& result) {
-  constexpr double same = 0.01;  // of the distance
-  std::string steps = steps_of(result.steps, result.step);
+  constexpr double same = 1e-4;  // of the distance
   const double done = result.states.back().distance;
+  std::string steps = steps_to(done, result.steps, result.step);
   const std::optional<double> asked = request.sliding.distance;
   if (!asked || result.steady.value_or(false) || std::abs(done - *asked) < same * *asked) {
     return steps;
@@ -104,7 +116,8 @@ void tell(const cases::SlidePlan& plan, Context& context) {
   if (plan.gone_before > 0) {
     context.err << fmt::format("slide: goes on from {}\n", si(plan.gone_before, "m"));
   }
-  context.err << fmt::format("slide: {}, about {}\n", steps_of(plan.steps, plan.step),
+  const std::string part = plan.gone_before > 0 ? fmt::format("{} of ", plan.steps_left) : "";
+  context.err << fmt::format("slide: {}{}, about {}\n", part, steps_of(plan.steps, plan.step),
                              format_estimate(plan.seconds));
 }
 
@@ -150,11 +163,11 @@ int show(Request request, Context& context) {
   try {
     result = cases::slide(scan.surface, request.settings, request.sliding, run, context.observer());
   } catch (const Interrupted&) {
-    if (!request.checkpoint) throw;
-    return fail(context,
-                fmt::format("interrupted; the run is kept in {}; the same command continues",
-                            printable(*request.checkpoint)),
-                kInterrupted);
+    const std::string what_stays =
+        request.checkpoint ? fmt::format("the run is kept in {}; the same command continues",
+                                         printable(*request.checkpoint))
+                           : "nothing is saved; --checkpoint DIR keeps a run that is interrupted";
+    return fail(context, "interrupted; " + what_stays, kInterrupted);
   }
   context.warn(results::findings_of({{.pressure = si(request.settings.mean_pressures.front(), "Pa"),
                                       .warnings = result.warnings}}));

@@ -6,6 +6,7 @@
 #include "tabor/core/version.hpp"
 #include "tabor/io/hdf5/guard.hpp"
 #include "tabor/results/bibliography.hpp"
+#include "tabor/results/result_maps.hpp"
 #include "tabor/spectral/fft.hpp"
 
 namespace tabor::results {
@@ -62,7 +63,8 @@ ReferenceKeys keys_in(const io::Hdf5Reader& file, const std::string& path) {
 
 }  // namespace
 
-ReferenceKeys references_in(const std::filesystem::path& file) {
+ReferenceKeys references_in(const std::filesystem::path& result) {
+  const std::filesystem::path file = file_of_result(result);
   return io::read_guarded(
       file, [&](const io::Hdf5Reader& reader) { return keys_in(reader, file.string()); });
 }

@@ -17,9 +17,9 @@ struct BibliographyEntry {
 /// Keys of references.bib, as records and result files name them.
 using ReferenceKeys = std::set<std::string>;
 
-/// Returns the keys of the methods that a result file used, of the software below them and of the
-/// file's format. Throws InputError for a file that tabor has not written.
-ReferenceKeys references_in(const std::filesystem::path& file);
+/// Returns the keys of the methods that a result used, a file or the folder of a study, of the
+/// software below them and of the file's format. Throws InputError for what tabor has not written.
+ReferenceKeys references_in(const std::filesystem::path& result);
 
 /// Adds the keys of the software that the methods rest on: transforms, random numbers.
 ReferenceKeys with_software(ReferenceKeys keys);

@@ -305,4 +305,9 @@ scan::MapSet chosen_maps(const ResultMaps& result, const MapChoice& choice) {
                    list_of(known) + " or all", "");
 }
 
+std::filesystem::path file_of_result(const std::filesystem::path& result) {
+  std::error_code unknown;
+  return std::filesystem::is_directory(result, unknown) ? result / "results.h5" : result;
+}
+
 }  // namespace tabor::results

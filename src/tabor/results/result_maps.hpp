@@ -60,4 +60,7 @@ struct MapChoice {
 /// state.
 scan::MapSet chosen_maps(const ResultMaps& result, const MapChoice& choice);
 
+/// Returns the file of a result: results.h5 of the folder of a study, else the file itself.
+std::filesystem::path file_of_result(const std::filesystem::path& result);
+
 }  // namespace tabor::results

@@ -236,6 +236,11 @@ ScanFrictionResult friction_of(const topography::Topography& surface,
   std::vector<engine::Job> jobs;
   FrictionGraph graph(store, jobs);
   graph.add_rain(has_curves);
+  ScanFrictionResult result;
+  if (compares_pixels && std::min(surface.grid.nx, surface.grid.ny) >= kFewestPixels) {
+    // Its rain is serial, too: beside the other it leaves no thread idle at the end.
+    graph.add(coarse_job(store, surface.grid, result.coarse), {});
+  }
   std::vector<std::size_t> handed_on;  // places
   for (std::size_t i = 0; i < settings.mean_pressures.size(); ++i) {
     std::vector<std::size_t> before;
@@ -248,10 +253,6 @@ ScanFrictionResult friction_of(const topography::Topography& surface,
     engine::Job hand_on = hand_on_job(store, i, receive);
     hand_on.is_brief = drops_maps;  // a receiver of maps writes them
     handed_on.push_back(graph.add(std::move(hand_on), std::move(needs)));
-  }
-  ScanFrictionResult result;
-  if (compares_pixels && std::min(surface.grid.nx, surface.grid.ny) >= kFewestPixels) {
-    graph.add(coarse_job(store, surface.grid, result.coarse), {});
   }
   const engine::Report report = engine::run_jobs(std::move(jobs), nullptr, options);
   report.rethrow();

@@ -108,7 +108,7 @@ ResultMaps read_from(const Hdf5Reader& reader, const fs::path& file,
 
 ResultMaps read_maps(const fs::path& result, std::optional<std::size_t> scan) {
   std::error_code unknown;
-  const fs::path file = fs::is_directory(result, unknown) ? result / "results.h5" : result;
+  const fs::path file = results::file_of_result(result);
   if (fs::is_regular_file(file, unknown) && !io::is_hdf5(file)) {
     throw InputError(file.string(), "no HDF5 file", kResult, "");
   }

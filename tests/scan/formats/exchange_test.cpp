@@ -416,6 +416,15 @@ TEST_F(Stl, TrianglesOfATiltedPlaneHaveItsNormal) {
   EXPECT_NEAR(triangle(bytes, 0)[4], 1.0, 1e-6);
 }
 
+TEST_F(Stl, IsNotRead) {
+  topography::Topography map;
+  map.grid = {.nx = 3, .ny = 2, .lx = 3e-3, .ly = 4e-3};
+  map.height = Field::Random(2, 3);
+  write(map, folder / "map.stl");
+  EXPECT_THAT(test::rejection(folder, test::bytes_of(folder / "map.stl")),
+              HasSubstr("mesh of triangles"));
+}
+
 TEST_F(Stl, HolesAreLeftOut) {
   const topography::Topography map = test::small_map();
   Index n_squares = 0;

@@ -208,7 +208,7 @@ std::optional<Objection> objection(const SlideSettings& settings, const CaseSett
                                    const Spelling& spelling) {
   if (!all.contact.tool.is_rough()) {
     return objection_to_use(
-        "tool", fmt::format("sliding needs a rough tool: {0} SCAN, or {0} ground:Sa=0.1um",
+        "tool", fmt::format("sliding needs a rough tool; give {}, a scan or e.g. ground:Sa=0.1um",
                             spelling("tool")));
   }
   if (!all.contact.saturation_pressure && !settings.wear_coefficient) {

@@ -387,6 +387,7 @@ void Run::tell_plan(double seconds_of_a_step) {
   if (!wanted_.plan) return;
   const std::uint64_t n_left = planned_steps() - std::min(planned_steps(), result_.steps);
   wanted_.plan({.steps = planned_steps(),
+                .steps_left = n_left,
                 .step = step(),
                 .seconds = seconds_of_a_step * static_cast<double>(n_left),
                 .gone_before = result_.steps > 1 ? all_.distance : 0});

@@ -120,10 +120,11 @@ struct SlideState {
 
 /// What is known of a run once its first step is made.
 struct SlidePlan {
-  std::uint64_t steps = 0;
-  double step = 0;         ///< [m]
-  double seconds = 0;      ///< that the steps are expected to take, from the first
-  double gone_before = 0;  ///< distance of the run that this one goes on from [m]
+  std::uint64_t steps = 0;       ///< of the whole run
+  std::uint64_t steps_left = 0;  ///< of them
+  double step = 0;               ///< [m]
+  double seconds = 0;            ///< that the steps are expected to take, from the first
+  double gone_before = 0;        ///< distance of the run that this one goes on from [m]
 };
 
 /// What a caller wants of a run.

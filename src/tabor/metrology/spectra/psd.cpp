@@ -2,7 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <numbers>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -89,9 +93,7 @@ void add_lines(const topography::Topography& topography, PowerSpectra& spectra) 
 }
 
 void add_area(const topography::Topography& topography, PowerSpectra& spectra) {
-  RadialSpectrum radial = radial_spectrum(topography.height, topography.grid, spectra.window);
-  spectra.window_gain = radial.window_gain;
-  spectra.radial = std::move(radial.spectrum);
+  spectra.radial = radial_spectrum(topography.height, topography.grid, spectra.window);
   spectra.rms_height = spectra.radial.rms_height;
   spectra.rms_slope = spectra.radial.rms_slope;
 }
@@ -99,13 +101,34 @@ void add_area(const topography::Topography& topography, PowerSpectra& spectra) {
 /// What an area has from its two-dimensional sum, from the one line.
 void take_from_line(const topography::Topography& topography, PowerSpectra& spectra) {
   const Spectrum& line = topography.grid.nx > 1 ? spectra.x : spectra.y;
-  const Field& height = topography.height;
-  const double mean_square = (height - height.mean()).square().mean();
   spectra.rms_height = line.rms_height;
   spectra.rms_slope = line.rms_slope;
-  if (spectra.window == PsdWindow::hann && mean_square > 0) {
-    spectra.window_gain = line.rms_height * line.rms_height / mean_square;
+}
+
+/// Variance of the windowed heights, as the spectrum has it, over that of the heights.
+double window_gain(const topography::Topography& topography, const PowerSpectra& spectra) {
+  const double before = numerics::rms_height(topography.height);
+  return spectra.window == PsdWindow::hann && before > 0 ? std::pow(spectra.rms_height / before, 2)
+                                                         : 1;
+}
+
+/// Rejects a range of the fit in which the spectra have nothing.
+void check_fit_range(const PsdOptions& options, const PowerSpectra& spectra) {
+  double shortest = std::numeric_limits<double>::infinity();
+  double longest = 0;
+  for (const Spectrum* one : {&spectra.x, &spectra.y, &spectra.radial}) {
+    if (one->q.empty()) continue;
+    shortest = std::min(shortest, one->q.front());
+    longest = std::max(longest, one->q.back());
   }
+  const auto check = [&](const char* option, std::optional<double> q, bool is_in) {
+    if (!q || is_in || !(longest > 0)) return;
+    throw InputError(
+        option, fmt::format("{:g} rad/m", *q),
+        fmt::format("a wavevector of the spectra, {:.3g} to {:.3g} rad/m", shortest, longest), "");
+  };
+  check("fit_min", options.fit_q_min, options.fit_q_min < longest);
+  check("fit_max", options.fit_q_max, options.fit_q_max > shortest);
 }
 
 }  // namespace
@@ -137,6 +160,8 @@ PowerSpectra power_spectra(const topography::Topography& topography, const PsdOp
   } else {
     add_area(topography, spectra);
   }
+  spectra.window_gain = window_gain(topography, spectra);
+  check_fit_range(options, spectra);
   fit(topography.grid, options, spectra);
   convert(spectra, options.convention);
   return spectra;

@@ -74,7 +74,7 @@ struct PowerSpectra {
   Spectrum radial;         ///< C2D averaged over rings of width 2 pi / max(lx, ly)
   double rms_height = 0;   ///< [m], from the full two-dimensional sum (after windowing)
   double rms_slope = 0;    ///< areal, spectral derivative, from the two-dimensional sum
-  double window_gain = 1;  ///< variance after windowing / before, of this realisation
+  double window_gain = 1;  ///< rms_height^2 over the mean square of the heights about their mean
 };
 
 /// Computes the spectra of the heights about their mean. Level before (the window does not replace

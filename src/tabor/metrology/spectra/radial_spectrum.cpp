@@ -6,7 +6,6 @@
 #include <complex>
 #include <numbers>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "tabor/core/rows.hpp"
@@ -71,15 +70,6 @@ class WindowedHeights {
                         : 1;
   }
 
-  /// Mean square with the window over that without.
-  double gain() const {
-    const double before =
-        mean_over(grid_, [&](Index y, Index x) { return std::pow(height_(y, x) - mean_, 2); });
-    const double after =
-        mean_over(grid_, [&](Index y, Index x) { return std::pow((*this)(y, x), 2); });
-    return is_windowed_ && before > 0 ? after / before : 1;
-  }
-
  private:
   const Field& height_;
   Grid grid_;
@@ -140,7 +130,7 @@ RingSums ring_sums(const WindowedHeights& heights, const Grid& grid, double dq, 
 
 }  // namespace
 
-RadialSpectrum radial_spectrum(const Field& height, const Grid& grid, PsdWindow window) {
+Spectrum radial_spectrum(const Field& height, const Grid& grid, PsdWindow window) {
   const WindowedHeights heights(height, grid, window);
   const double dq = 2 * pi / std::max(grid.lx, grid.ly);
   const double nyquist = pi / std::max(grid.dx(), grid.dy());
@@ -157,7 +147,7 @@ RadialSpectrum radial_spectrum(const Field& height, const Grid& grid, PsdWindow 
   spectrum.mode_spread = heights.mode_spread();
   spectrum.rms_height = std::sqrt(sums.variance);
   spectrum.rms_slope = std::sqrt(sums.slope_variance);
-  return {std::move(spectrum), heights.gain()};
+  return spectrum;
 }
 
 }  // namespace tabor::metrology

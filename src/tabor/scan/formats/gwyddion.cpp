@@ -107,6 +107,10 @@ void restore_counts(Layer& layer) {
 Match identify_gwyddion(std::string_view) { return Match::maybe; }
 
 Document open_gwyddion(const Contents& contents) {
+  if (is_stl(contents.bytes)) {
+    throw Unrecognised(contents, "a mesh of triangles (STL)",
+                       "read the scan that the mesh was made of: tabor writes STL only");
+  }
   if (!gwyddion_program()) {
     throw Unrecognised(contents, "content of no format tabor reads itself",
                        "for about 150 instrument formats install Gwyddion 2: "

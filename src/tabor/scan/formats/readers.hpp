@@ -124,6 +124,8 @@ void write_vti(const topography::Topography& topography, const std::filesystem::
 void write_vti_maps(const MapSet& maps, const std::filesystem::path& file);
 
 Match identify_gwyddion(std::string_view head);
+/// True for a binary STL file by its size: a header and a number of triangles.
+bool is_stl(std::string_view bytes);
 Document open_gwyddion(const Contents& contents);
 
 }  // namespace tabor::scan::format

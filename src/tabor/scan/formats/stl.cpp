@@ -5,6 +5,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 
 #include "tabor/core/units.hpp"
 #include "tabor/io/files/atomic_file.hpp"
@@ -78,6 +80,14 @@ void write_stl(const topography::Topography& topography, const std::filesystem::
     append(head);
     for (Index y = 0; y + 1 < topography.grid.ny; ++y) append(row_of_triangles(topography, y));
   });
+}
+
+bool is_stl(std::string_view bytes) {
+  constexpr std::size_t header = 80;
+  std::uint32_t n = 0;
+  if (bytes.size() < header + sizeof(n)) return false;
+  std::memcpy(&n, bytes.data() + header, sizeof(n));
+  return n > 0 && bytes.size() == header + sizeof(n) + kTriangleSize * std::size_t{n};
 }
 
 std::string note_stl(const topography::Topography& topography) {
