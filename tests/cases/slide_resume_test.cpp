@@ -43,7 +43,7 @@ struct Outcome {
 /// Slides until the observer is asked for the n-th time after the first step; 0: to the end. Every
 /// loop asks it, as under a watch that never waits.
 Outcome slid(const SlidingRun& run, const std::filesystem::path& folder, int n_questions = 0,
-             double checkpoint_period = 1e9) {
+             double checkpoint_period = 1e9, bool ends_when_stopped = false) {
   Outcome outcome;
   const SlideParts parts = parts_of(run.settings, run.sliding);
   const SlideRun wanted{
@@ -55,7 +55,8 @@ Outcome slid(const SlidingRun& run, const std::filesystem::path& folder, int n_q
           },
       .wants_maps = true,
       .checkpoint = folder,
-      .checkpoint_period = checkpoint_period};
+      .checkpoint_period = checkpoint_period,
+      .ends_when_stopped = ends_when_stopped};
   int n_asked = 0;
   const Observer observer = [&](const Progress& progress) {
     if (n_asked > 0 || progress.stage.starts_with("slide,")) ++n_asked;
@@ -64,8 +65,10 @@ Outcome slid(const SlidingRun& run, const std::filesystem::path& folder, int n_q
   const test::EveryQuestion every;
   try {
     const Watch watch(observer, "");
-    outcome.after =
-        slide(test::small_sheet(), run.settings, run.sliding, wanted, observer).after.height;
+    const SlideResult result =
+        slide(test::small_sheet(), run.settings, run.sliding, wanted, observer);
+    outcome.after = result.after.height;
+    outcome.stopped = result.interrupted;
   } catch (const Interrupted&) {
     outcome.stopped = true;
   }
@@ -143,6 +146,28 @@ TEST(SlideCheckpoint, LetsOneWithTrappedOilGoOn) {
   expect_to_go_on(run);
   run.sliding.liquid = SlidingOil::squeezed;
   expect_to_go_on(run);
+}
+
+/// Stops a run without a checkpoint in any loop of any step: the states before stay.
+TEST(StoppedSlide, KeepsItsStates) {
+  SlidingRun run;
+  for (const bool is_trapped : {false, true}) {
+    run.settings.trapped.trapped = is_trapped;
+    const Outcome whole = slid(run, {});
+    std::size_t most = 0;
+    for (int n_questions = 1; n_questions < 100000; n_questions += 1 + n_questions / 5) {
+      const Outcome part = slid(run, {}, n_questions, 1e9, true);
+      if (!part.stopped) break;
+      ASSERT_GE(part.numbers.size(), 1U);
+      ASSERT_LT(part.numbers.size(), whole.numbers.size());
+      const std::vector<NamedCells> expected(
+          whole.numbers.begin(),
+          whole.numbers.begin() + static_cast<std::ptrdiff_t>(part.numbers.size()));
+      EXPECT_EQ(text_of(part.numbers), text_of(expected)) << n_questions;
+      most = std::max(most, part.numbers.size());
+    }
+    EXPECT_GE(most, 2U);
+  }
 }
 
 TEST(SlideCheckpoint, OfAnotherRunIsRejected) {

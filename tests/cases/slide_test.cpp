@@ -261,6 +261,25 @@ TEST(Slide, WarnsOfMaterialThatIsWornOff) {
 }
 
 // In whole pixels, of which the last step has what is left.
+TEST(Slide, EndsWhereItIsStoppedIfThatIsWanted) {
+  const SlideSettings sliding{.distance = 12e-6, .step = 2e-6, .every = 4e-6};
+  const SlideResult whole = slide(test::small_sheet(), aluminium(), sliding);
+  EXPECT_FALSE(whole.interrupted);
+  int n_steps = 0;
+  const Observer observer = [&n_steps](const Progress& progress) {
+    n_steps += progress.stage.starts_with("slide,") ? 1 : 0;
+    return n_steps < 3;  // after the first step two more begin: the third is stopped
+  };
+  const SlideResult part =
+      slide(test::small_sheet(), aluminium(), sliding, {.ends_when_stopped = true}, observer);
+  EXPECT_TRUE(part.interrupted);
+  ASSERT_EQ(part.states.size(), 2U);  // pressed, and after 4 um
+  EXPECT_EQ(part.states[1].friction_dry, whole.states[1].friction_dry);
+  EXPECT_EQ(part.steps, 3U);
+  n_steps = 0;
+  EXPECT_THROW(slide(test::small_sheet(), aluminium(), sliding, {}, observer), Interrupted);
+}
+
 TEST(Slide, EndsAtItsDistance) {
   const auto slid = [](double distance, double step) {
     return slide(test::small_sheet(), aluminium(), {.distance = distance, .step = step}, {});

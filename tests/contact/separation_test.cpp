@@ -278,6 +278,19 @@ TEST(SolveContact, StartsFromAGivenPressure) {
   }
 }
 
+TEST(PressureList, IsTheMapThatItWasMadeOf) {
+  Field map = Field::Zero(5, 7);
+  EXPECT_TRUE((contact::PressureList(map).map() == map).all());
+  map(0, 0) = 3;
+  map(4, 6) = -2;
+  map(2, 3) = 1e-300;
+  const contact::PressureList list = map;
+  EXPECT_EQ(list.values(), (std::vector<double>{3, 1e-300, -2}));
+  EXPECT_TRUE((list.map() == map).all());
+  EXPECT_TRUE(contact::PressureList().empty());
+  EXPECT_TRUE(contact::PressureList(Field()).empty());
+}
+
 TEST(SolveContact, RejectsAStartThatIsNoPressureOnItsGrid) {
   const Field height = wave(32, 0.01, true);
   const auto elasticity = elastic::make_periodic(square(32), 1.0);

@@ -63,7 +63,8 @@ std::string steps_and_end(const Request& request, const cases::SlideResult& resu
   if (!asked || result.steady.value_or(false) || std::abs(done - *asked) < same * *asked) {
     return steps;
   }
-  return fmt::format("{} to {} (whole pixels)", steps, si(done, "m"));
+  return fmt::format("{} to {} ({})", steps, si(done, "m"),
+                     result.interrupted ? "interrupted" : "whole pixels");
 }
 
 std::string text_of(const Request& request, const Scan& scan, const cases::SlideResult& result) {
@@ -158,16 +159,22 @@ int show(Request request, Context& context) {
             if (file) file->add(n_states++, state, parts);
           },
       .wants_maps = request.file.output && request.file.options.fields != results::Fields::none,
-      .checkpoint = request.checkpoint.value_or("")};
+      .checkpoint = request.checkpoint.value_or(""),
+      .ends_when_stopped = true};
   cases::SlideResult result;
   try {
     result = cases::slide(scan.surface, request.settings, request.sliding, run, context.observer());
   } catch (const Interrupted&) {
-    const std::string what_stays =
-        request.checkpoint ? fmt::format("the run is kept in {}; the same command continues",
-                                         printable(*request.checkpoint))
-                           : "nothing is saved; --checkpoint DIR keeps a run that is interrupted";
-    return fail(context, "interrupted; " + what_stays, kInterrupted);
+    if (!request.checkpoint) throw;
+    return fail(context,
+                fmt::format("interrupted; the run is kept in {}; the same command continues",
+                            printable(*request.checkpoint)),
+                kInterrupted);
+  }
+  if (result.interrupted) {
+    context.warn(
+        "Interrupted. Only the finished states are shown. With --checkpoint DIR the same "
+        "command continues a run");
   }
   context.warn(results::findings_of({{.pressure = si(request.settings.mean_pressures.front(), "Pa"),
                                       .warnings = result.warnings}}));
@@ -179,7 +186,9 @@ int show(Request request, Context& context) {
   return finish(context, json_of(request, scan, result, context),
                 write_csv(request.file.csv, states_csv(cases::slide_columns(parts), result.states),
                           text_of(request, scan, result)),
-                result.converged ? kDone : kNotConverged);
+                result.interrupted ? kInterrupted
+                : result.converged ? kDone
+                                   : kNotConverged);
 }
 
 }  // namespace

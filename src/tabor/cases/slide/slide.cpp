@@ -6,13 +6,10 @@
 #include <cmath>
 #include <utility>
 
-#include "tabor/cases/slide/checkpoint.hpp"
 #include "tabor/cases/slide/sheet.hpp"
-#include "tabor/cases/slide/steadiness.hpp"
-#include "tabor/cases/states.hpp"
+#include "tabor/cases/slide/slide_run.hpp"
 #include "tabor/cases/warnings.hpp"
 #include "tabor/core/error.hpp"
-#include "tabor/core/resources.hpp"
 #include "tabor/core/units.hpp"
 #include "tabor/core/watch.hpp"
 #include "tabor/friction/wet_contact.hpp"
@@ -25,114 +22,35 @@ namespace {
 constexpr double kUsualStates = 20;     // of one distance
 constexpr double kCheckpointCost = 10;  // times as long computing as writing, at least
 
-/// What slides, and the numbers of its states.
-class Run {
- public:
-  Run(const topography::Topography& surface, const CaseSettings& settings,
-      const SlideSettings& sliding, const SlideRun& wanted, const Observer& observer)
-      : surface_(surface),
-        settings_(settings),
-        sliding_(sliding),
-        wanted_(wanted),
-        observer_(observer),
-        elasticity_(make_operator(settings.contact, surface.grid)),
-        tool_(make_tool(settings.contact.tool, surface.grid, observer)),
-        contact_(settings.contact),
-        distance_(distance_of(sliding, tool_, dx())),
-        film_(rain()),
-        slider_(*elasticity_, problem_of()),
-        steadiness_(tool_.grid.lx) {
-    result_.after = surface;
-    result_.warnings = of_surface(surface);
-    add(of_tool(surface, tool_), result_.warnings);
-    if (film_) add(film_->warnings, result_.warnings);
-    result_.references = references_of(settings, sliding);
-    if (has_squeezed()) squeezed_ = film_->film.thickness;
-    if (!wanted.checkpoint.empty()) {
-      checkpoint_.emplace(wanted.checkpoint, identity_of(surface, settings, sliding, tool_));
-    }
+}  // namespace
+
+SlidingRun::SlidingRun(const topography::Topography& surface, const CaseSettings& settings,
+                       const SlideSettings& sliding, const SlideRun& wanted,
+                       const Observer& observer)
+    : surface_(surface),
+      settings_(settings),
+      sliding_(sliding),
+      wanted_(wanted),
+      observer_(observer),
+      elasticity_(make_operator(settings.contact, surface.grid)),
+      tool_(make_tool(settings.contact.tool, surface.grid, observer)),
+      contact_(settings.contact),
+      distance_(distance_of(sliding, tool_, dx())),
+      film_(rain()),
+      slider_(*elasticity_, problem_of()),
+      steadiness_(tool_.grid.lx) {
+  result_.after = surface;
+  result_.warnings = of_surface(surface);
+  add(of_tool(surface, tool_), result_.warnings);
+  if (film_) add(film_->warnings, result_.warnings);
+  result_.references = references_of(settings, sliding);
+  if (has_squeezed()) squeezed_ = film_->film.thickness;
+  if (!wanted.checkpoint.empty()) {
+    checkpoint_.emplace(wanted.checkpoint, identity_of(surface, settings, sliding, tool_));
   }
+}
 
-  SlideResult run();
-
- private:
-  sliding::Problem problem_of() const;
-  std::optional<FilmRecord> rain() const;
-  bool has_kept() const { return film_ && sliding_.liquid != SlidingOil::squeezed; }
-  bool has_squeezed() const { return film_ && sliding_.liquid != SlidingOil::kept; }
-  /// True where what contacts leave of the oil may be trapped, not what was rained.
-  bool traps_squeezed() const { return film_ && !has_kept() && settings_.trapped.is_asked(); }
-
-  bool goes_on();
-  void begin();
-  void find_step();
-  void take(const sliding::Ploughing& step);
-  void after_contact(const sliding::Ploughing& step);
-  void keep_state();
-  bool ends() const;
-  void save();
-  void save_if_due();
-  void advance();
-  void advance_one();
-  void look();
-  double next_state() const;
-  void tell_plan(double seconds_of_a_step);
-
-  SlideRecord record();
-  double dry_friction_of(const SlideRecord& one) const {
-    return estimate_of(one.contact, 0, contact_, settings_.friction).friction_dry;
-  }
-  void add_oil(SlideRecord& one, double ploughing);
-  void measure_sheet(SlideRecord& one);
-  double friction_now(const sliding::Ploughing& step);
-  bool has_maps() const;
-  SlideMaps maps() const;
-  void hand_over(std::size_t state, const SlideMaps* maps) const;
-  void warn();
-
-  double dx() const { return surface_.grid.dx(); }
-  double step() const { return static_cast<double>(pixels_) * dx(); }
-  double pressure() const { return settings_.mean_pressures.front(); }
-  /// The distance in whole pixels, of which the last step may be shorter than the others.
-  Index pixels_to_slide() const { return static_cast<Index>(std::llround(distance_ / dx())); }
-  std::uint64_t planned_steps() const {
-    return static_cast<std::uint64_t>((pixels_to_slide() + pixels_ - 1) / pixels_);
-  }
-  Index pixels_of_next_step() const {
-    const auto slid = static_cast<Index>(std::llround(all_.distance / dx()));
-    return std::clamp<Index>(pixels_to_slide() - slid, 1, pixels_);
-  }
-
-  const topography::Topography& surface_;
-  const CaseSettings& settings_;
-  const SlideSettings& sliding_;
-  const SlideRun& wanted_;
-  const Observer& observer_;
-  std::unique_ptr<elastic::ElasticOperator> elasticity_;
-  Tool tool_;
-  ContactSettings contact_;  // of the last contact, with the highest p_sat of its pixels
-  double distance_;          // at most [m]
-  std::optional<FilmRecord> film_;
-  sliding::Slider slider_;
-  Steadiness steadiness_;
-  std::optional<SlideCheckpoint> checkpoint_;
-  Index pixels_ = 0;          // of a step
-  sliding::Ploughing since_;  // the last state
-  sliding::Ploughing all_;
-  Field squeezed_;          // oil that contacts squeeze out, after the last of them [m]
-  Field before_squeezing_;  // the same as the last contact met it [m]
-  double away_ = 0;         // of it, that found no space [m]
-  TrappedRecord with_oil_;  // numbers of the last contact with trapped oil
-  bool converged_ = true;
-  bool is_told_ = false;  // how long it takes
-  std::vector<std::uint64_t> with_maps_;
-  Stopwatch watch_;
-  double saved_at_ = 0;     // [s]
-  double saving_took_ = 0;  // [s]
-  SlideResult result_;
-};
-
-sliding::Problem Run::problem_of() const {
+sliding::Problem SlidingRun::problem_of() const {
   sliding::Problem problem{.sheet = surface_.height,
                            .tool = tool_.height,
                            .place = places_of(settings_.contact.tool, tool_).front(),
@@ -151,13 +69,13 @@ sliding::Problem Run::problem_of() const {
   return problem;
 }
 
-std::optional<FilmRecord> Run::rain() const {
+std::optional<FilmRecord> SlidingRun::rain() const {
   if (settings_.film.lubricant_densities.empty()) return std::nullopt;
   return film_state(surface_, settings_.film, observer_).front();
 }
 
 /// Adds up a step, and lets its contact squeeze oil out.
-void Run::take(const sliding::Ploughing& step) {
+void SlidingRun::take(const sliding::Ploughing& step) {
   since_ += step;
   all_ += step;
   converged_ = converged_ && slider_.state().convergence.converged() &&
@@ -168,7 +86,7 @@ void Run::take(const sliding::Ploughing& step) {
 }
 
 /// Squeezes oil out, and follows how steady sliding is.
-void Run::after_contact(const sliding::Ploughing& step) {
+void SlidingRun::after_contact(const sliding::Ploughing& step) {
   if (has_squeezed()) before_squeezing_ = std::move(squeezed_);
   if (sliding_.until_steady && step.distance > 0) {
     steadiness_.add(all_.distance - step.distance,
@@ -189,7 +107,7 @@ void Run::after_contact(const sliding::Ploughing& step) {
 }
 
 /// Friction of the last step, of oil that stays where it is.
-double Run::friction_now(const sliding::Ploughing& step) {
+double SlidingRun::friction_now(const sliding::Ploughing& step) {
   SlideRecord one;
   one.contact = slider_.summary();
   const double ploughing = step.friction(step.work, pressure());
@@ -199,7 +117,7 @@ double Run::friction_now(const sliding::Ploughing& step) {
   return has_kept() ? one.friction_lubricated : one.friction_squeezed;
 }
 
-void Run::add_oil(SlideRecord& one, double ploughing) {
+void SlidingRun::add_oil(SlideRecord& one, double ploughing) {
   contact::Summary solids;
   if (slider_.trapped() != nullptr) solids = slider_.summary_of_solids();
   const auto share_under = [&](const Field& film) {
@@ -227,7 +145,7 @@ void Run::add_oil(SlideRecord& one, double ploughing) {
   one.friction_squeezed = friction_with(one.squeezed_share, has_kept() ? unused : one.trapped);
 }
 
-SlideRecord Run::record() {
+SlideRecord SlidingRun::record() {
   SlideRecord one;
   one.distance = all_.distance;
   one.contact = slider_.summary();
@@ -255,7 +173,7 @@ SlideRecord Run::record() {
 }
 
 /// Measures the sheet as it is now, and its spectra.
-void Run::measure_sheet(SlideRecord& one) {
+void SlidingRun::measure_sheet(SlideRecord& one) {
   result_.after.height = slider_.sheet();
   measure(result_.after.height, one);
   result_.spectra.push_back(spectra_of_sheet(result_.after));
@@ -263,7 +181,7 @@ void Run::measure_sheet(SlideRecord& one) {
 
 /// True for the first and the last state, and for the one that a distance of the settings is
 /// nearest to.
-bool Run::has_maps() const {
+bool SlidingRun::has_maps() const {
   if (!wanted_.wants_maps) return false;
   if (result_.steps == 0 || ends()) return true;
   const double half = 0.5 * step();
@@ -272,7 +190,7 @@ bool Run::has_maps() const {
   });
 }
 
-SlideMaps Run::maps() const {
+SlideMaps SlidingRun::maps() const {
   const contact::State& contact = slider_.displacing();
   SlideMaps maps;
   maps.sheet = slider_.sheet();
@@ -285,7 +203,7 @@ SlideMaps Run::maps() const {
   return maps;
 }
 
-void Run::hand_over(std::size_t state, const SlideMaps* maps) const {
+void SlidingRun::hand_over(std::size_t state, const SlideMaps* maps) const {
   if (!wanted_.receive) return;
   wanted_.receive({.numbers = result_.states[state],
                    .spectra = result_.spectra[state],
@@ -294,7 +212,7 @@ void Run::hand_over(std::size_t state, const SlideMaps* maps) const {
 }
 
 /// Records the state that is reached.
-void Run::keep_state() {
+void SlidingRun::keep_state() {
   SlideRecord one = record();
   measure_sheet(one);
   result_.states.push_back(one);
@@ -307,12 +225,13 @@ void Run::keep_state() {
   hand_over(state, &kept);
 }
 
-bool Run::ends() const {
+bool SlidingRun::ends() const {
+  if (result_.interrupted) return true;
   return pixels_ > 0 && (result_.steps >= planned_steps() || result_.steady.value_or(false));
 }
 
 /// Goes on from the checkpoint, if there is one.
-bool Run::goes_on() {
+bool SlidingRun::goes_on() {
   std::optional<ReachedSlide> reached;
   if (checkpoint_) reached = checkpoint_->load();
   if (!reached) return false;
@@ -337,7 +256,7 @@ bool Run::goes_on() {
   return true;
 }
 
-void Run::save() {
+void SlidingRun::save() {
   if (!checkpoint_) return;
   const double begin = watch_.seconds();
   checkpoint_->save({.slider = slider_.reached(),
@@ -356,14 +275,14 @@ void Run::save() {
   saving_took_ = saved_at_ - begin;
 }
 
-void Run::save_if_due() {
+void SlidingRun::save_if_due() {
   const double period = std::max(wanted_.checkpoint_period, kCheckpointCost * saving_took_);
   if (watch_.seconds() - saved_at_ >= period) save();
 }
 
 /// Takes the first step: that of the settings, else a quarter of the length of the contact patches,
 /// halved until the step certificate is small.
-void Run::find_step() {
+void SlidingRun::find_step() {
   const sliding::Slider::Reached pressed = slider_.reached();
   auto pixels = static_cast<Index>(std::llround(
       sliding_.step ? *sliding_.step / dx() : 0.25 * mean_patch_length(slider_.touching())));
@@ -382,7 +301,7 @@ void Run::find_step() {
   }
 }
 
-void Run::tell_plan(double seconds_of_a_step) {
+void SlidingRun::tell_plan(double seconds_of_a_step) {
   is_told_ = true;
   if (!wanted_.plan) return;
   const std::uint64_t n_left = planned_steps() - std::min(planned_steps(), result_.steps);
@@ -394,7 +313,7 @@ void Run::tell_plan(double seconds_of_a_step) {
 }
 
 /// Presses, and takes the first step.
-void Run::begin() {
+void SlidingRun::begin() {
   const sliding::Ploughing pressed = slider_.press(observer_);
   take(pressed);
   keep_state();
@@ -402,7 +321,7 @@ void Run::begin() {
 }
 
 /// Distance of the state after the last one [m].
-double Run::next_state() const {
+double SlidingRun::next_state() const {
   const double every = sliding_.every.value_or(distance_ / kUsualStates);
   const double half = 0.5 * step();
   const double last = result_.states.back().distance + half;
@@ -415,16 +334,17 @@ double Run::next_state() const {
 
 /// One more step. A step that is stopped has changed nothing: it is taken again when the run goes
 /// on.
-void Run::advance() {
+void SlidingRun::advance() {
   try {
     advance_one();
   } catch (const Interrupted&) {
     save();
-    throw;
+    if (checkpoint_ || !wanted_.ends_when_stopped) throw;
+    result_.interrupted = true;
   }
 }
 
-void Run::advance_one() {
+void SlidingRun::advance_one() {
   const std::string stage =
       fmt::format("slide, {} of {}", format_si(all_.distance, "m"), format_si(distance_, "m"));
   const double share = static_cast<double>(result_.steps) / static_cast<double>(planned_steps());
@@ -439,7 +359,7 @@ void Run::advance_one() {
 }
 
 /// Warns of the way, and of the last contact on it.
-void Run::warn() {
+void SlidingRun::warn() {
   add(of_sliding(all_, pressure(), metrology::rms_height(surface_), tool_.grid.lx, result_.steady),
       result_.warnings);
   if (!converged_) {
@@ -450,7 +370,7 @@ void Run::warn() {
   ContactRecord contact;
   contact.summary = last.contact;
   const double wet = has_kept() ? last.lubricated_share : has_squeezed() ? last.squeezed_share : 0;
-  if (slider_.state().convergence.converged()) {
+  if (slider_.state().convergence.converged() && !result_.interrupted) {
     add(of_contact(surface_, contact_, slider_.state(), last.contact), result_.warnings);
   }
   dry_friction(contact, wet, 0, contact_, settings_.friction, result_.warnings);
@@ -459,24 +379,24 @@ void Run::warn() {
 }
 
 /// Keeps a state where one is due, and tells whether sliding has become steady.
-void Run::look() {
+void SlidingRun::look() {
   if (sliding_.until_steady) result_.steady = steadiness_.is_steady();
   const double half = 0.5 * step();
   if (ends() || all_.distance >= next_state() - half) keep_state();
 }
 
-SlideResult Run::run() {
+SlideResult SlidingRun::run() {
   result_.before = spectra_of_sheet(surface_);
   if (sliding_.until_steady) result_.steady = false;
   if (!goes_on()) {
     begin();
     look();
   }
+  const Unwatched whole_step;  // it ends whole, or asks the observer itself and changes nothing
   while (!ends()) {
-    const Unwatched whole_step;  // it ends whole, or asks the observer itself and changes nothing
     if (checkpoint_) save_if_due();
     advance();
-    look();
+    if (!result_.interrupted) look();
   }
   result_.step = step();
   result_.tool_length = tool_.grid.lx;
@@ -491,11 +411,9 @@ SlideResult Run::run() {
   return std::move(result_);
 }
 
-}  // namespace
-
 SlideResult slide(const topography::Topography& surface, const CaseSettings& settings,
                   const SlideSettings& sliding, const SlideRun& run, const Observer& observer) {
-  return Run(surface, settings, sliding, run, observer).run();
+  return SlidingRun(surface, settings, sliding, run, observer).run();
 }
 
 }  // namespace tabor::cases

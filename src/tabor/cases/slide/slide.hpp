@@ -135,6 +135,9 @@ struct SlideRun {
   /// Folder that keeps the run while it lasts, so that a killed one goes on; empty: none.
   std::filesystem::path checkpoint = {};
   double checkpoint_period = 10;  ///< seconds between two of them, at least
+  /// A run that the observer stops ends with its last state, in place of throwing Interrupted, if
+  /// it has one and no checkpoint.
+  bool ends_when_stopped = false;
 };
 
 /// A sheet before and after sliding.
@@ -151,6 +154,7 @@ struct SlideResult {
   Warnings warnings;
   std::vector<std::string> references;
   bool converged = false;
+  bool interrupted = false;  ///< the observer ended it
 };
 
 /// Warns of steps that are too long for the tool, of a sheet that is worn off by more than its
