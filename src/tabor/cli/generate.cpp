@@ -94,7 +94,7 @@ void declare_settings(OptionSet& set, bool of_rough, synthesis::Request& recipe)
 
 void declare_options(OptionSet& set, Request& request) {
   set.group("Surface");
-  const std::vector<std::string> kinds = synthesis::recipe_kinds();
+  const std::vector<std::string>& kinds = synthesis::recipe_kinds();
   set.positional("KIND", one_of(kinds), request.recipe.kind).words = kinds;
   set.output("OUT", "the file to write; its extension is the format", scan_extensions(),
              request.output)
