@@ -13,6 +13,7 @@
 #include "tabor/contact/patches.hpp"
 #include "tabor/contact/preconditioner.hpp"
 #include "tabor/contact/projection.hpp"
+#include "tabor/core/random.hpp"
 
 namespace tabor::contact {
 namespace {
@@ -237,6 +238,44 @@ TEST(CountTransitions, CountsTheOutlineOfABlock) {
   EXPECT_EQ(count_transitions(contact, true).along_rows, 16);
   EXPECT_EQ(count_transitions(contact, false).along_rows, 8);
   EXPECT_EQ(count_transitions(contact, true).along_columns, 0);
+}
+
+/// Corners of a square of four pixels, as their number and places say.
+Index corners_of(bool a, bool b, bool c, bool d) {
+  const int n = int{a} + int{b} + int{c} + int{d};
+  if (n == 2) return a == d ? 2 : 0;
+  return n % 2;
+}
+
+TEST(CountTransitions, CountsPixelByPixelWithCornersOnMapsOfAnyShape) {
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    const CounterRandom random(seed);
+    const auto ny = static_cast<Index>(1 + seed % 7);
+    const auto nx = static_cast<Index>(1 + seed / 7 % 11);
+    const Mask contact = Mask::NullaryExpr(ny, nx, [&](Index y, Index x) {
+      return random.uniform(static_cast<std::uint64_t>(y * nx + x)) < 0.5;
+    });
+    for (const bool periodic : {true, false}) {
+      Index corners = 0;
+      Transitions expected;
+      for (Index y = 0; y < ny; ++y) {
+        for (Index x = 0; x < nx; ++x) {
+          const Index right = (x + 1) % nx, below = (y + 1) % ny;
+          const bool has_right = periodic || x + 1 < nx, has_below = periodic || y + 1 < ny;
+          if (has_right) expected.along_rows += contact(y, x) != contact(y, right);
+          if (has_below) expected.along_columns += contact(y, x) != contact(below, x);
+          if (has_right && has_below) {
+            corners += corners_of(contact(y, x), contact(y, right), contact(below, x),
+                                  contact(below, right));
+          }
+        }
+      }
+      const Transitions found = count_transitions(contact, periodic);
+      EXPECT_EQ(found.along_rows, expected.along_rows) << seed;
+      EXPECT_EQ(found.along_columns, expected.along_columns) << seed;
+      EXPECT_EQ(count_corners(contact, periodic), corners) << seed;
+    }
+  }
 }
 
 TEST(CountTransitions, WrapsOnlyRoundAPeriodicCell) {

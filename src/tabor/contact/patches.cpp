@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "tabor/core/loops.hpp"
+#include "tabor/core/rows.hpp"
 #include "tabor/numerics/disjoint_sets.hpp"
 #include "tabor/numerics/runs.hpp"
 
@@ -18,6 +19,8 @@ numerics::Runs runs_of(const Mask& contact) {
   const bool* touching = contact.data();
   return {contact.rows(), contact.cols(), [touching](Index i) { return touching[i]; }};
 }
+
+const bool* row_of(const Mask& contact, Index y) { return contact.data() + y * contact.cols(); }
 
 /// Joins the runs of each patch.
 Components components_of(const numerics::Runs& runs, bool periodic) {
@@ -66,31 +69,39 @@ LabelMap label_patches(const Mask& contact, bool periodic) {
 Transitions count_transitions(const Mask& contact, bool periodic) {
   const Index ny = contact.rows();
   const Index nx = contact.cols();
-  const auto count = [&](auto&& differs) {
-    return count_where(contact.size(), [&](Index i) { return differs(i / nx, i % nx); });
-  };
-  Transitions transitions;
-  transitions.along_rows = count([&](Index y, Index x) {
-    return (periodic || x + 1 < nx) && contact(y, x) != contact(y, (x + 1) % nx);
+  const auto sums = sum_over_rows<2>(ny, [&](Index y) {
+    const bool* row = row_of(contact, y);
+    int along_row = periodic && row[nx - 1] != row[0] ? 1 : 0;
+    for (Index x = 0; x + 1 < nx; ++x) {  // raw loop: one row
+      along_row += row[x] != row[x + 1] ? 1 : 0;
+    }
+    int along_columns = 0;
+    if (periodic || y + 1 < ny) {
+      const bool* below = row_of(contact, (y + 1) % ny);
+      for (Index x = 0; x < nx; ++x) {  // raw loop: one row
+        along_columns += row[x] != below[x] ? 1 : 0;
+      }
+    }
+    return Eigen::Array2d(along_row, along_columns);
   });
-  transitions.along_columns = count([&](Index y, Index x) {
-    return (periodic || y + 1 < ny) && contact(y, x) != contact((y + 1) % ny, x);
-  });
-  return transitions;
+  return {static_cast<Index>(sums(0)), static_cast<Index>(sums(1))};
 }
 
 Index count_corners(const Mask& contact, bool periodic) {
-  const Index ny = periodic ? contact.rows() : contact.rows() - 1;
-  const Index nx = periodic ? contact.cols() : contact.cols() - 1;
-  const auto corners_at = [&](Index y, Index x) {
-    const Index below = (y + 1) % contact.rows(), right = (x + 1) % contact.cols();
-    const bool a = contact(y, x), b = contact(y, right), c = contact(below, x),
-               d = contact(below, right);
-    const int n = int{a} + int{b} + int{c} + int{d};
-    if (n == 2) return a == d ? 2 : 0;  // two pixels that touch at the corner only
-    return n % 2;
-  };
-  return static_cast<Index>(sum_over(ny * nx, [&](Index i) { return corners_at(i / nx, i % nx); }));
+  const Index nx = contact.cols();
+  const auto sum = sum_over_rows<1>(periodic ? contact.rows() : contact.rows() - 1, [&](Index y) {
+    const bool* row = row_of(contact, y);
+    const bool* below = row_of(contact, (y + 1) % contact.rows());
+    const auto corners = [&](Index x, Index right) {
+      const int a = row[x], b = row[right], c = below[x], d = below[right];
+      const int touch_at_the_corner_only = (a ^ b) & (b ^ d) & (a ^ c);
+      return (a ^ b ^ c ^ d) + 2 * touch_at_the_corner_only;
+    };
+    int n = periodic ? corners(nx - 1, 0) : 0;
+    for (Index x = 0; x + 1 < nx; ++x) n += corners(x, x + 1);  // raw loop: one row
+    return Eigen::Array<double, 1, 1>(n);
+  });
+  return static_cast<Index>(sum(0));
 }
 
 }  // namespace tabor::contact

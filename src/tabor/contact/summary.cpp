@@ -55,7 +55,7 @@ Summary summarise(const State& state, const Problem& problem, const Grid& grid, 
   summary.separation = state.separation;
   summary.approach = extent_of(problem.height).highest - state.separation;
   summary.contact_gap_error = state.gap_error;
-  summary.max_pressure = state.pressure.maxCoeff();
+  summary.max_pressure = max_over(n, [&](Index i) { return state.pressure(i); });
   summary.elastic_energy =
       mean_of(n, [&](Index i) { return 0.5 * state.pressure(i) * state.displacement(i); });
   summary.n_patches = find_patches(contact, periodic).size();

@@ -108,11 +108,14 @@ struct Extent {
 
 /// Returns the smallest and the largest of n numbers.
 inline Extent extent_over(Index n, const double* values) {
-  const double depth = parallel_max(
-      n, [values](Index begin, Index end) { return -block_of(values, begin, end).minCoeff(); });
-  const double highest = parallel_max(
-      n, [values](Index begin, Index end) { return block_of(values, begin, end).maxCoeff(); });
-  return {-depth, highest};
+  std::vector<double> lowest(static_cast<std::size_t>((n + kBlock - 1) / kBlock));
+  const double highest = parallel_max(n, [&](Index begin, Index end) {
+    const auto block = block_of(values, begin, end);
+    lowest[static_cast<std::size_t>(begin / kBlock)] = block.minCoeff();
+    return block.maxCoeff();
+  });
+  const auto least = std::min_element(lowest.begin(), lowest.end());
+  return {least == lowest.end() ? std::numeric_limits<double>::infinity() : *least, highest};
 }
 
 /// Returns the smallest and the largest value of a map.
