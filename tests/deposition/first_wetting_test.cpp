@@ -24,6 +24,16 @@ Field rough() {
   });
 }
 
+/// Random heights of a few levels: many neighbours are equal.
+Field steps(const Grid& grid, std::uint64_t seed) {
+  const CounterRandom random(seed);
+  const double n_levels = 2.0 + static_cast<double>(seed % 9);
+  return Field::NullaryExpr(grid.ny, grid.nx, [&](Index y, Index x) {
+    const auto place = static_cast<std::uint64_t>(y * grid.nx + x);
+    return 1e-7 * std::floor(n_levels * random.uniform(place));
+  });
+}
+
 /// How many pixels another dose wets first than films of all doses, laid one by one, say.
 Index n_wrong(const Field& height, const Grid& grid, const Dose& dose, const Mask& where) {
   Dose no_films = dose;
@@ -54,11 +64,7 @@ TEST(FirstWettingDose, IsThatOfTheFirstFilmWhereHeightsAreEqual) {
   const Grid grid{9, 7, 9e-6, 7e-6};
   for (std::uint64_t seed = 0; seed < 400; ++seed) {
     const CounterRandom random(seed);
-    const double n_levels = 2.0 + static_cast<double>(seed % 9);
-    const Field height = Field::NullaryExpr(grid.ny, grid.nx, [&](Index y, Index x) {
-      const auto place = static_cast<std::uint64_t>(y * grid.nx + x);
-      return 1e-7 * std::floor(n_levels * random.uniform(place));
-    });
+    const Field height = steps(grid, seed);
     Dose dose{.mean_films = {0, 0}, .model = Model::limit};
     for (double film = 1e-9; film < 2e-6; film *= 1.0 + random.uniform(1000)) {
       dose.mean_films.push_back(film);
@@ -122,12 +128,7 @@ TEST(FirstWettingDose, IsTheSameWithFilmsInTheSameRun) {
     dose.edge = edge;
     EXPECT_EQ(n_changed_together(rough(), kGrid, dose, on_waves), 0) << name(edge);
     for (std::uint64_t seed = 0; seed < 200; ++seed) {
-      const CounterRandom random(seed);
-      const double n_levels = 2.0 + static_cast<double>(seed % 9);
-      const Field height = Field::NullaryExpr(small.ny, small.nx, [&](Index y, Index x) {
-        const auto place = static_cast<std::uint64_t>(y * small.nx + x);
-        return 1e-7 * std::floor(n_levels * random.uniform(place));
-      });
+      const Field height = steps(small, seed);
       const Wetting wetting{on_waves.mean_films, height > 1e-7};
       EXPECT_EQ(n_changed_together(height, small, dose, wetting), 0) << seed << ' ' << name(edge);
     }
