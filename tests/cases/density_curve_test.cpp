@@ -132,7 +132,7 @@ TEST(DensityCurve, IsEmptyOnASurfaceWithoutHeights) {
   Stage stage = plateau_with_a_pit_and_a_valley();
   stage.surface.height.setZero();
   EXPECT_TRUE(density_curves(stage.surface, stage.contacts, settings()).empty());
-  const WettingDoses doses = wetting_doses(stage.surface, settings().film);
+  const WettingDoses doses = wetting_doses(stage.surface, settings().film, Mask());
   EXPECT_TRUE(lubricated_shares(doses, stage.contacts.front().mask).empty());
 }
 

@@ -102,11 +102,6 @@ WettingDoses wetting_doses(const topography::Topography& surface, const FilmSett
 }
 
 WettingDoses wetting_doses(const topography::Topography& surface, const FilmSettings& settings,
-                           const Observer& observer) {
-  return wetting_doses(surface, settings, Mask(), observer);
-}
-
-WettingDoses wetting_doses(const topography::Topography& surface, const FilmSettings& settings,
                            const std::function<void(FilmRecord&&)>& receive,
                            const Observer& observer) {
   return doses_and_films(surface, settings, settings, Mask(), film_sink(surface, settings, receive),

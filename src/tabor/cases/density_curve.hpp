@@ -42,16 +42,13 @@ struct WettingDoses {
 bool has_density_curve(const CaseSettings& settings);
 
 /// Finds the first doses that wet the pixels of `where`, in the shape of the surface or empty for
-/// all; the others count as wet by none. All doses are reached in one pass of vanishing droplets
-/// (Model::limit), whatever model the settings ask for. Throws as density_curves().
+/// all; the others count as wet by none. They need no contact and hold for any. All doses are
+/// reached in one pass of vanishing droplets (Model::limit), whatever model the settings ask for.
+/// Throws as density_curves().
 WettingDoses wetting_doses(const topography::Topography& surface, const FilmSettings& settings,
                            const Mask& where, const Observer& observer = {});
 
-/// Finds the first doses that wet each pixel: they need no contact and hold for any.
-WettingDoses wetting_doses(const topography::Topography& surface, const FilmSettings& settings,
-                           const Observer& observer = {});
-
-/// Finds them in one run with the films of the settings, which are of Model::limit.
+/// Finds those of all pixels in one run with the films of the settings, which are of Model::limit.
 WettingDoses wetting_doses(const topography::Topography& surface, const FilmSettings& settings,
                            const std::function<void(FilmRecord&&)>& receive,
                            const Observer& observer = {});

@@ -243,25 +243,25 @@ void declare_options(OptionSet& set, Request& request) {
 }  // namespace
 
 Verb table_verb() {
-  return {
-      .name = "table",
-      .arguments = "RESULTS --for PROGRAM [--units L,T,M] [options]",
-      .summary = "write friction as input for a forming code",
-      .details =
-          "The table gives friction against mean pressure, areal density of the lubricant "
-          "and, for oil that flows, sliding speed, as means over the scans of a group. tabor "
-          "leaves out and names numbers with a serious warning (not-converged, flood, "
-          "flooded, frictionless, implausible-friction, those of flowing oil). A deck carries no "
-          "units, so give them with --units, such as mm,s,t (MPa), m,s,kg (Pa), mm,ms,kg "
-          "(GPa) or in,s,lbf (psi). docs/friction_tables.md shows each format.",
-      .examples = {"tabor table study_results --for abaqus --units mm,s,t --group before",
-                   "tabor table study_results --for lsdyna --units mm,s,t --group before "
-                   "--density 0.45g/m^2 -o friction.k"},
-      .declare = [](OptionSet& set) -> Action {
-        const auto request = std::make_shared<Request>();
-        declare_options(set, *request);
-        return [request](Context& context) { return show(*request, context); };
-      }};
+  return {.name = "table",
+          .arguments = "RESULTS --for PROGRAM [--units L,T,M] [options]",
+          .summary = "write friction as input for a forming code",
+          .details =
+              "The table gives friction against mean pressure, areal density of the lubricant "
+              "and, for oil that flows, sliding speed, as means over the scans of a group. tabor "
+              "leaves out and names numbers with a serious warning (not-converged, flood, "
+              "flooded, frictionless, implausible-friction, those of flowing oil). A deck "
+              "carries no units, so give them with --units, such as mm,s,t (MPa), m,s,kg (Pa), "
+              "mm,ms,kg "
+              "(GPa) or in,s,lbf (psi). docs/friction_tables.md shows each format.",
+          .examples = {"tabor table study_results --for abaqus --units mm,s,t --group before",
+                       "tabor table study_results --for lsdyna --units mm,s,t --group before "
+                       "--density 0.45g/m^2 -o friction.k"},
+          .declare = [](OptionSet& set) -> Action {
+            const auto request = std::make_shared<Request>();
+            declare_options(set, *request);
+            return [request](Context& context) { return show(*request, context); };
+          }};
 }
 
 }  // namespace tabor::cli

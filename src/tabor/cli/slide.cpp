@@ -58,13 +58,15 @@ std::string steps_to(double distance, std::uint64_t n, double length) {
 std::string steps_and_end(const Request& request, const cases::SlideResult& result) {
   constexpr double same = 1e-4;  // of the distance
   const double done = result.states.back().distance;
+  if (result.interrupted) {
+    return fmt::format("steps of {}, interrupted after {}", si(result.step, "m"), si(done, "m"));
+  }
   std::string steps = steps_to(done, result.steps, result.step);
   const std::optional<double> asked = request.sliding.distance;
   if (!asked || result.steady.value_or(false) || std::abs(done - *asked) < same * *asked) {
     return steps;
   }
-  return fmt::format("{} to {} ({})", steps, si(done, "m"),
-                     result.interrupted ? "interrupted" : "whole pixels");
+  return fmt::format("{} to {} (whole pixels)", steps, si(done, "m"));
 }
 
 std::string text_of(const Request& request, const Scan& scan, const cases::SlideResult& result) {

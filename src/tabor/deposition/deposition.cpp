@@ -25,36 +25,32 @@ namespace {
 /// One run of deposit(): the doses in ascending order, and films made of the state of the liquid.
 class Deposition {
  public:
-  Deposition(const Field& height, const Grid& grid, const Dose& dose, const FilmSink& sink)
-      : height_(height), grid_(grid), dose_(dose), sink_(sink), requests_(dose.mean_films.size()) {
+  /// `wetting`: null where no first doses are asked for.
+  Deposition(const Field& height, const Grid& grid, const Dose& dose, const Wetting* wetting,
+             const FilmSink& sink)
+      : height_(height),
+        grid_(grid),
+        dose_(dose),
+        wetting_(wetting),
+        sink_(sink),
+        requests_(dose.mean_films.size()) {
     std::iota(requests_.begin(), requests_.end(), std::size_t{0});
     std::stable_sort(requests_.begin(), requests_.end(), [&](std::size_t a, std::size_t b) {
       return dose.mean_films[a] < dose.mean_films[b];
     });
   }
 
-  void run(const Observer& observer) {
+  /// Returns the first doses that wet the pixels, if they are asked for.
+  std::vector<std::uint16_t> run(const Observer& observer) {
     if (dose_.model == Model::uniform) {
       spread_uniformly();
-      return;
-    }
-    if (dose_.model == Model::bottom_fill) {
+    } else if (dose_.model == Model::bottom_fill) {
       terrain_ = quantise(height_, dose_.edge);
       fill_from_the_bottom();
-      return;
+    } else {
+      rain(observer);
     }
-    rain(observer);
-  }
-
-  /// Rains in the limit of small droplets and finds which dose wets a pixel first.
-  std::vector<std::uint16_t> run(const Wetting& wetting, const Observer& observer) {
-    terrain_ = quantise(height_, dose_.edge);
-    Pools pools(terrain_, Ties::ordered);
-    release(terrain_.height);
-    std::vector<std::uint16_t> first;
-    rain_evenly(pools, doses(1), reached_in(pools),
-                {volumes(wetting.mean_films, terrain_, 1), wetting.where, first}, observer);
-    return first;
+    return std::move(first_);
   }
 
  private:
@@ -92,16 +88,16 @@ class Deposition {
     const Ties ties = dose_.model == Model::droplets ? Ties::connected : Ties::ordered;
     Pools pools(terrain_, ties);
     release(terrain_.height);
+    const auto reached = [&](std::size_t i, const RainState& state) { emit(i, state, pools); };
     if (dose_.model == Model::droplets) {
-      rain_droplets(pools, droplet(), dose_.reading, dose_.seed, doses(terrain_.size()),
-                    reached_in(pools), observer);
+      rain_droplets(pools, droplet(), dose_.reading, dose_.seed, doses(terrain_.size()), reached,
+                    observer);
+    } else if (wetting_ == nullptr) {
+      rain_evenly(pools, doses(1), reached, observer);
     } else {
-      rain_evenly(pools, doses(1), reached_in(pools), observer);
+      rain_evenly(pools, doses(1), reached,
+                  {volumes(wetting_->mean_films, terrain_, 1), wetting_->where, first_}, observer);
     }
-  }
-
-  DoseReached reached_in(Pools& pools) {
-    return [this, &pools](std::size_t i, const RainState& state) { emit(i, state, pools); };
   }
 
   void emit(std::size_t i, const RainState& state, Pools& pools) {
@@ -168,11 +164,33 @@ class Deposition {
   const Field& height_;
   const Grid& grid_;
   const Dose& dose_;
+  const Wetting* wetting_;
   const FilmSink& sink_;
   std::vector<std::size_t> requests_;  // positions in mean_films, ascending in dose
   Stopwatch watch_;
   Terrain terrain_;
+  std::vector<std::uint16_t> first_;  // doses that wet the pixels
 };
+
+/// Lays films down on the map or, where it is made of mirror images, on one of them; returns the
+/// first doses that `wetting` asks for, if it is not null.
+std::vector<std::uint16_t> lay_down(const Field& height, const Grid& grid, const Dose& dose,
+                                    const Wetting* wetting, const FilmSink& sink,
+                                    const Observer& observer) {
+  if (!rains_on_one_image(height, dose)) {
+    return Deposition(height, grid, dose, wetting, sink).run(observer);
+  }
+  const Field image = first_image(height);
+  const Grid grid_on_image = grid_of_image(grid);
+  const Dose on_image = dose_of_image(dose);
+  const Wetting wetting_on_image = wetting == nullptr ? Wetting() : of_image(*wetting);
+  const FilmSink mirror = [&](Film&& film) { sink(with_images(std::move(film), dose.edge)); };
+  const std::vector<std::uint16_t> first =
+      Deposition(image, grid_on_image, on_image, wetting == nullptr ? nullptr : &wetting_on_image,
+                 mirror)
+          .run(observer);
+  return wetting == nullptr ? first : with_images(first, grid, *wetting);
+}
 
 }  // namespace
 
@@ -180,15 +198,7 @@ void deposit(const Field& height, const Grid& grid, const Dose& dose, const Film
              const Observer& observer) {
   const Watch watch(observer, "pools");
   check(height, grid, dose);
-  if (!rains_on_one_image(height, dose)) {
-    Deposition(height, grid, dose, sink).run(observer);
-    return;
-  }
-  const Field image = first_image(height);
-  const Dose on_image = dose_of_image(dose);
-  const Grid grid_on_image = grid_of_image(grid);
-  const FilmSink mirror = [&](Film&& film) { sink(with_images(std::move(film), dose.edge)); };
-  Deposition(image, grid_on_image, on_image, mirror).run(observer);
+  lay_down(height, grid, dose, nullptr, sink, observer);
 }
 
 std::vector<std::uint16_t> first_wetting_doses(const Field& height, const Grid& grid,
@@ -199,15 +209,7 @@ std::vector<std::uint16_t> first_wetting_doses(const Field& height, const Grid& 
   all.mean_films.insert(all.mean_films.end(), wetting.mean_films.begin(), wetting.mean_films.end());
   check(height, grid, all);
   check(grid, dose, wetting);
-  if (!rains_on_one_image(height, dose)) {
-    return Deposition(height, grid, dose, sink).run(wetting, observer);
-  }
-  const Field image = first_image(height);
-  const Dose on_image = dose_of_image(dose);
-  const FilmSink mirror = [&](Film&& film) { sink(with_images(std::move(film), dose.edge)); };
-  return with_images(
-      Deposition(image, grid_of_image(grid), on_image, mirror).run(of_image(wetting), observer),
-      grid, wetting);
+  return lay_down(height, grid, dose, &wetting, sink, observer);
 }
 
 std::vector<Film> deposit(const Field& height, const Grid& grid, const Dose& dose,

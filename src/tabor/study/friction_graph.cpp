@@ -106,7 +106,7 @@ struct FrictionGraph::Shared {
 
   void find_doses(const engine::Monitor& monitor) {
     if (!doses.first.empty()) return;  // found with the films
-    doses = cases::wetting_doses(*store->surface(monitor), settings().film, monitor.own);
+    doses = cases::wetting_doses(*store->surface(monitor), settings().film, Mask(), monitor.own);
   }
 
   /// Puts the tool over the surface, where a contact has it.

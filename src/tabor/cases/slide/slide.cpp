@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "tabor/cases/slide/sheet.hpp"
-#include "tabor/cases/slide/slide_run.hpp"
+#include "tabor/cases/slide/slide_runner.hpp"
 #include "tabor/cases/warnings.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/core/units.hpp"
@@ -24,9 +24,9 @@ constexpr double kCheckpointCost = 10;  // times as long computing as writing, a
 
 }  // namespace
 
-SlidingRun::SlidingRun(const topography::Topography& surface, const CaseSettings& settings,
-                       const SlideSettings& sliding, const SlideRun& wanted,
-                       const Observer& observer)
+SlideRunner::SlideRunner(const topography::Topography& surface, const CaseSettings& settings,
+                         const SlideSettings& sliding, const SlideRun& wanted,
+                         const Observer& observer)
     : surface_(surface),
       settings_(settings),
       sliding_(sliding),
@@ -50,7 +50,7 @@ SlidingRun::SlidingRun(const topography::Topography& surface, const CaseSettings
   }
 }
 
-sliding::Problem SlidingRun::problem_of() const {
+sliding::Problem SlideRunner::problem_of() const {
   sliding::Problem problem{.sheet = surface_.height,
                            .tool = tool_.height,
                            .place = places_of(settings_.contact.tool, tool_).front(),
@@ -69,13 +69,13 @@ sliding::Problem SlidingRun::problem_of() const {
   return problem;
 }
 
-std::optional<FilmRecord> SlidingRun::rain() const {
+std::optional<FilmRecord> SlideRunner::rain() const {
   if (settings_.film.lubricant_densities.empty()) return std::nullopt;
   return film_state(surface_, settings_.film, observer_).front();
 }
 
 /// Adds up a step, and lets its contact squeeze oil out.
-void SlidingRun::take(const sliding::Ploughing& step) {
+void SlideRunner::take(const sliding::Ploughing& step) {
   since_ += step;
   all_ += step;
   converged_ = converged_ && slider_.state().convergence.converged() &&
@@ -86,7 +86,7 @@ void SlidingRun::take(const sliding::Ploughing& step) {
 }
 
 /// Squeezes oil out, and follows how steady sliding is.
-void SlidingRun::after_contact(const sliding::Ploughing& step) {
+void SlideRunner::after_contact(const sliding::Ploughing& step) {
   if (has_squeezed()) before_squeezing_ = std::move(squeezed_);
   if (sliding_.until_steady && step.distance > 0) {
     steadiness_.add(all_.distance - step.distance,
@@ -107,7 +107,7 @@ void SlidingRun::after_contact(const sliding::Ploughing& step) {
 }
 
 /// Friction of the last step, of oil that stays where it is.
-double SlidingRun::friction_now(const sliding::Ploughing& step) {
+double SlideRunner::friction_now(const sliding::Ploughing& step) {
   SlideRecord one;
   one.contact = slider_.summary();
   const double ploughing = step.friction(step.work, pressure());
@@ -117,7 +117,7 @@ double SlidingRun::friction_now(const sliding::Ploughing& step) {
   return has_kept() ? one.friction_lubricated : one.friction_squeezed;
 }
 
-void SlidingRun::add_oil(SlideRecord& one, double ploughing) {
+void SlideRunner::add_oil(SlideRecord& one, double ploughing) {
   contact::Summary solids;
   if (slider_.trapped() != nullptr) solids = slider_.summary_of_solids();
   const auto share_under = [&](const Field& film) {
@@ -145,7 +145,7 @@ void SlidingRun::add_oil(SlideRecord& one, double ploughing) {
   one.friction_squeezed = friction_with(one.squeezed_share, has_kept() ? unused : one.trapped);
 }
 
-SlideRecord SlidingRun::record() {
+SlideRecord SlideRunner::record() {
   SlideRecord one;
   one.distance = all_.distance;
   one.contact = slider_.summary();
@@ -173,7 +173,7 @@ SlideRecord SlidingRun::record() {
 }
 
 /// Measures the sheet as it is now, and its spectra.
-void SlidingRun::measure_sheet(SlideRecord& one) {
+void SlideRunner::measure_sheet(SlideRecord& one) {
   result_.after.height = slider_.sheet();
   measure(result_.after.height, one);
   result_.spectra.push_back(spectra_of_sheet(result_.after));
@@ -181,7 +181,7 @@ void SlidingRun::measure_sheet(SlideRecord& one) {
 
 /// True for the first and the last state, and for the one that a distance of the settings is
 /// nearest to.
-bool SlidingRun::has_maps() const {
+bool SlideRunner::has_maps() const {
   if (!wanted_.wants_maps) return false;
   if (result_.steps == 0 || ends()) return true;
   const double half = 0.5 * step();
@@ -190,7 +190,7 @@ bool SlidingRun::has_maps() const {
   });
 }
 
-SlideMaps SlidingRun::maps() const {
+SlideMaps SlideRunner::maps() const {
   const contact::State& contact = slider_.displacing();
   SlideMaps maps;
   maps.sheet = slider_.sheet();
@@ -203,7 +203,7 @@ SlideMaps SlidingRun::maps() const {
   return maps;
 }
 
-void SlidingRun::hand_over(std::size_t state, const SlideMaps* maps) const {
+void SlideRunner::hand_over(std::size_t state, const SlideMaps* maps) const {
   if (!wanted_.receive) return;
   wanted_.receive({.numbers = result_.states[state],
                    .spectra = result_.spectra[state],
@@ -212,7 +212,7 @@ void SlidingRun::hand_over(std::size_t state, const SlideMaps* maps) const {
 }
 
 /// Records the state that is reached.
-void SlidingRun::keep_state() {
+void SlideRunner::keep_state() {
   SlideRecord one = record();
   measure_sheet(one);
   result_.states.push_back(one);
@@ -225,13 +225,13 @@ void SlidingRun::keep_state() {
   hand_over(state, &kept);
 }
 
-bool SlidingRun::ends() const {
+bool SlideRunner::ends() const {
   if (result_.interrupted) return true;
   return pixels_ > 0 && (result_.steps >= planned_steps() || result_.steady.value_or(false));
 }
 
 /// Goes on from the checkpoint, if there is one.
-bool SlidingRun::goes_on() {
+bool SlideRunner::goes_on() {
   std::optional<ReachedSlide> reached;
   if (checkpoint_) reached = checkpoint_->load();
   if (!reached) return false;
@@ -256,7 +256,7 @@ bool SlidingRun::goes_on() {
   return true;
 }
 
-void SlidingRun::save() {
+void SlideRunner::save() {
   if (!checkpoint_) return;
   const double begin = watch_.seconds();
   checkpoint_->save({.slider = slider_.reached(),
@@ -275,14 +275,14 @@ void SlidingRun::save() {
   saving_took_ = saved_at_ - begin;
 }
 
-void SlidingRun::save_if_due() {
+void SlideRunner::save_if_due() {
   const double period = std::max(wanted_.checkpoint_period, kCheckpointCost * saving_took_);
   if (watch_.seconds() - saved_at_ >= period) save();
 }
 
 /// Takes the first step: that of the settings, else a quarter of the length of the contact patches,
 /// halved until the step certificate is small.
-void SlidingRun::find_step() {
+void SlideRunner::find_step() {
   const sliding::Slider::Reached pressed = slider_.reached();
   auto pixels = static_cast<Index>(std::llround(
       sliding_.step ? *sliding_.step / dx() : 0.25 * mean_patch_length(slider_.touching())));
@@ -301,7 +301,7 @@ void SlidingRun::find_step() {
   }
 }
 
-void SlidingRun::tell_plan(double seconds_of_a_step) {
+void SlideRunner::tell_plan(double seconds_of_a_step) {
   is_told_ = true;
   if (!wanted_.plan) return;
   const std::uint64_t n_left = planned_steps() - std::min(planned_steps(), result_.steps);
@@ -313,7 +313,7 @@ void SlidingRun::tell_plan(double seconds_of_a_step) {
 }
 
 /// Presses, and takes the first step.
-void SlidingRun::begin() {
+void SlideRunner::begin() {
   const sliding::Ploughing pressed = slider_.press(observer_);
   take(pressed);
   keep_state();
@@ -321,7 +321,7 @@ void SlidingRun::begin() {
 }
 
 /// Distance of the state after the last one [m].
-double SlidingRun::next_state() const {
+double SlideRunner::next_state() const {
   const double every = sliding_.every.value_or(distance_ / kUsualStates);
   const double half = 0.5 * step();
   const double last = result_.states.back().distance + half;
@@ -334,17 +334,19 @@ double SlidingRun::next_state() const {
 
 /// One more step. A step that is stopped has changed nothing: it is taken again when the run goes
 /// on.
-void SlidingRun::advance() {
+void SlideRunner::advance() {
   try {
     advance_one();
   } catch (const Interrupted&) {
     save();
     if (checkpoint_ || !wanted_.ends_when_stopped) throw;
     result_.interrupted = true;
+    return;
   }
+  look();
 }
 
-void SlidingRun::advance_one() {
+void SlideRunner::advance_one() {
   const std::string stage =
       fmt::format("slide, {} of {}", format_si(all_.distance, "m"), format_si(distance_, "m"));
   const double share = static_cast<double>(result_.steps) / static_cast<double>(planned_steps());
@@ -359,7 +361,7 @@ void SlidingRun::advance_one() {
 }
 
 /// Warns of the way, and of the last contact on it.
-void SlidingRun::warn() {
+void SlideRunner::warn() {
   add(of_sliding(all_, pressure(), metrology::rms_height(surface_), tool_.grid.lx, result_.steady),
       result_.warnings);
   if (!converged_) {
@@ -379,24 +381,23 @@ void SlidingRun::warn() {
 }
 
 /// Keeps a state where one is due, and tells whether sliding has become steady.
-void SlidingRun::look() {
+void SlideRunner::look() {
   if (sliding_.until_steady) result_.steady = steadiness_.is_steady();
   const double half = 0.5 * step();
   if (ends() || all_.distance >= next_state() - half) keep_state();
 }
 
-SlideResult SlidingRun::run() {
+SlideResult SlideRunner::run() {
   result_.before = spectra_of_sheet(surface_);
   if (sliding_.until_steady) result_.steady = false;
   if (!goes_on()) {
     begin();
     look();
   }
-  const Unwatched whole_step;  // it ends whole, or asks the observer itself and changes nothing
+  const Unwatched until_the_end;  // a step asks the observer itself, and ends whole or not at all
   while (!ends()) {
     if (checkpoint_) save_if_due();
     advance();
-    if (!result_.interrupted) look();
   }
   result_.step = step();
   result_.tool_length = tool_.grid.lx;
@@ -413,7 +414,7 @@ SlideResult SlidingRun::run() {
 
 SlideResult slide(const topography::Topography& surface, const CaseSettings& settings,
                   const SlideSettings& sliding, const SlideRun& run, const Observer& observer) {
-  return SlidingRun(surface, settings, sliding, run, observer).run();
+  return SlideRunner(surface, settings, sliding, run, observer).run();
 }
 
 }  // namespace tabor::cases

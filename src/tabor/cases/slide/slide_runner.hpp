@@ -17,10 +17,10 @@
 namespace tabor::cases {
 
 /// What slides, and the numbers of its states.
-class SlidingRun {
+class SlideRunner {
  public:
-  SlidingRun(const topography::Topography& surface, const CaseSettings& settings,
-             const SlideSettings& sliding, const SlideRun& wanted, const Observer& observer);
+  SlideRunner(const topography::Topography& surface, const CaseSettings& settings,
+              const SlideSettings& sliding, const SlideRun& wanted, const Observer& observer);
 
   SlideResult run();
 
