@@ -5,6 +5,7 @@ from __future__ import annotations
 import difflib
 import functools
 import inspect
+import math
 import operator
 import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -175,22 +176,34 @@ def _check_of(annotation: str, names: Mapping[str, Any]) -> _Check | None:
     return lambda value, name: None if value is None else asked(value, name)
 
 
+def _title(function: Callable[..., Any]) -> str:
+    """A function as its user writes it: "Surface", "Surface.section"."""
+    return function.__qualname__.removesuffix(".__init__")
+
+
 def _unknown(function: Callable[..., Any], name: str, names: Iterable[str]) -> TypeError:
     """The error for an argument that a function does not have."""
     known = list(names)
     near = [ARGUMENTS[name]] if ARGUMENTS.get(name) in known else difflib.get_close_matches(name, known, 1)
-    title = function.__qualname__.removesuffix(".__init__")
-    return TypeError(f"{title}() got an unexpected keyword argument {name!r}" + (f"; did you mean {near[0]!r}?" if near else ""))
+    return TypeError(f"{_title(function)}() got an unexpected keyword argument {name!r}" + (f"; did you mean {near[0]!r}?" if near else ""))
+
+
+def _too_many(function: Callable[..., Any], n_given: int, by_place: Sequence[str], by_name: Sequence[str]) -> TypeError:
+    """The error for more arguments by position than a function takes, with those that it takes by name."""
+    if not by_place and not by_name:
+        return TypeError(f"{_title(function)}() takes no arguments; got {n_given}")
+    noun = "argument" if len(by_place) == 1 else "arguments"
+    taken = f"{len(by_place)} {noun} by position ({', '.join(by_place)})" if by_place else "no arguments by position"
+    named = ", ".join(f"{name}=" for name in by_name[:4]) + (", ..." if len(by_name) > 4 else "")
+    return TypeError(f"{_title(function)}() takes {taken}; got {n_given}" + (f"; give the others by name: {named}" if named else ""))
 
 
 def _with_more(function: Callable[..., Any], args: tuple[Any, ...], given: dict[str, Any], n_own: int,
                more: Sequence[str]) -> tuple[Any, ...]:
     """The arguments of the function's own; those behind them go to the settings in their order."""
-    if len(args) > n_own + len(more):
-        raise TypeError(f"{function.__qualname__.removesuffix('.__init__')}() takes {n_own + len(more)} arguments; got {len(args)}")
     for name, value in zip(more, args[n_own:]):
         if name in given:
-            raise TypeError(f"{function.__qualname__.removesuffix('.__init__')}() got multiple values for argument {name!r}")
+            raise TypeError(f"{_title(function)}() got multiple values for argument {name!r}")
         given[name] = value
     return args[:n_own]
 
@@ -200,7 +213,7 @@ def _renamed(function: Callable[..., Any], given: dict[str, Any], others: Mappin
     for other in others.keys() & given.keys():
         name = others[other]
         if name in given:
-            raise TypeError(f"{function.__qualname__.removesuffix('.__init__')}(): {other} and {name} are the same argument; give one of them")
+            raise TypeError(f"{_title(function)}(): {other} and {name} are the same argument; give one of them")
         given[name] = given.pop(other)
 
 
@@ -216,10 +229,18 @@ def typed(function: _Function, settings: Sequence[str] = (), others: Mapping[str
     checks = {name: check for name, check in found if check is not None}
     positional = tuple(checks.get(name) for name in names[:n_own])
     known = None if code.co_flags & inspect.CO_VARKEYWORDS and not settings else {*names, *settings}
-    more = [name for name in settings if name not in names] if settings and code.co_flags & inspect.CO_VARARGS else None
+    takes_more = bool(code.co_flags & inspect.CO_VARARGS)
+    further = [name for name in settings if name not in names]
+    more = further if settings and takes_more else None
+    by_place = (*names[:n_own], *(more or ()))
+    by_name = [*names[n_own:], *(() if more else further)]
+    most = math.inf if takes_more and not more else len(by_place)
+    n_self = int(names[:1] in (("self",), ("cls",)))
 
     @functools.wraps(function)
     def asked(*args: Any, **given: Any) -> Any:
+        if len(args) > most:
+            raise _too_many(function, len(args) - n_self, by_place[n_self:], by_name)
         if more is not None and len(args) > n_own:
             args = _with_more(function, args, given, n_own, more)
         _renamed(function, given, others)

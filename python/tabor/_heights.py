@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _tabor
+from ._errors import InputError
 from ._foreign import Carried, carried, spacing
 from ._values import is_labelled, si_list
 
@@ -35,6 +36,8 @@ def in_metres(z: Any, unit: str | None) -> Array:
         raise ValueError(f"unit: got {unit!r} for heights that say they are in {name!r}; leave it out")
     factor = 1.0 if is_si else own if own is not None else given
     heights = checked(z)
+    if np.isnan(heights).all():
+        raise InputError("heights: got no valid height at any pixel; expected a map with heights")
     return heights if factor is None or factor == 1.0 else heights * factor
 
 
@@ -53,6 +56,15 @@ def _is_masked(z: Any) -> bool:
     return masked is not None and isinstance(z, masked)
 
 
+def _shape_of(z: npt.NDArray[Any]) -> str:
+    """Shape of an array that is no map, for a message."""
+    if z.ndim == 0:
+        return "one number"
+    if z.size == 0:
+        return f"an array of shape {z.shape}, which is empty"
+    return f"an array of {z.ndim} dimension{'s' if z.ndim > 1 else ''}, shape {z.shape}"
+
+
 def checked(z: Any, name: str = "heights") -> Array:
     """C-ordered float64 of shape (ny, nx), NaN where there is no height. Raises TypeError for arrays of anything but
     real numbers, ValueError for other shapes and infinite heights."""
@@ -67,7 +79,7 @@ def checked(z: Any, name: str = "heights") -> Array:
     if heights.dtype.kind not in "fiu":
         raise TypeError(f"{name}: got an array of {heights.dtype}; expected real numbers")
     if heights.ndim != 2 or heights.size == 0:
-        raise ValueError(f"{name}: got shape {heights.shape}; expected (ny, nx), row 0 on top")
+        raise ValueError(f"{name}: got {_shape_of(heights)}; expected a map of shape (ny, nx), row 0 on top")
     heights = np.ascontiguousarray(heights, dtype=np.float64)
     if np.isinf(heights).any():
         raise ValueError(f"{name}: got an infinite height; expected numbers, NaN where there is none")

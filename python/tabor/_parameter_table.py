@@ -10,7 +10,9 @@ from collections.abc import Iterable, Iterator, Sequence
 from typing import Any, Unpack
 
 from ._arguments import path, texts, wrong
+from ._errors import InputError
 from ._optional import needs
+from ._parameters import Parameters
 from ._progress import Progress
 from ._read import read
 from ._setting_types import ReadSettings
@@ -70,6 +72,15 @@ def _fields_of(name: str, form: re.Pattern[str], fields: str) -> dict[str, Any]:
     return {key: int(text) if text.isdecimal() else text for key, text in found.groupdict().items()}
 
 
+def _measured(surface: Surface, steps: Sequence[str], symbols: Iterable[str] | None, progress: Progress) -> Parameters:
+    """Parameters of one treated surface, which an error names."""
+    try:
+        treated = surface.treat(*steps, progress=progress) if steps else surface
+        return treated.parameters(symbols, progress=progress)
+    except InputError as error:
+        raise type(error)(f"{surface.source}: {error}") from error
+
+
 @takes(READ)
 def parameters(scans: Any, symbols: Iterable[str] | None = None, *, treatment: Sequence[str] = (), fields: str | None = None,
                channel: str | int | None = None, progress: Progress = None, **settings: Unpack[ReadSettings]) -> Any:
@@ -94,7 +105,8 @@ def parameters(scans: Any, symbols: Iterable[str] | None = None, *, treatment: S
     Raises
     ------
     ValueError
-        For scans that cannot be read, unknown symbols, and names that the form does not fit.
+        For the first scan that cannot be read or treated, which it names; for unknown symbols, and names that the form
+        does not fit.
     ImportError
         Without pandas.
 
@@ -116,7 +128,7 @@ def parameters(scans: Any, symbols: Iterable[str] | None = None, *, treatment: S
         name = unique = surface.name
         while unique in rows:  # two folders may have files of one name
             unique = surface.source if unique == name != surface.source else f"{unique}'"
-        found = (surface.treat(*steps, progress=progress) if steps else surface).parameters(symbols, progress=progress)
+        found = _measured(surface, steps, symbols, progress)
         units.update({symbol: one.unit for symbol, one in found.items()})
         named = {} if form is None else _fields_of(name, form, fields or "")
         rows[unique] = {**named, **{symbol: float(one) for symbol, one in found.items()}}

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from . import _tabor
-from ._arguments import wrong
+from ._arguments import typed, wrong
 from ._progress import Progress
 from ._values import in_si, is_quantity
 
@@ -37,7 +37,7 @@ def _add_step(surface: type, name: str, argument: str, text: str) -> None:
     method.__qualname__ = f"{surface.__name__}.{name}"
     method.__doc__ = f"{text[0].upper()}{text[1:]}." + (
         f"\n\nThe argument: {argument}; several may be given one by one." if argument else "")
-    setattr(surface, name, method)
+    setattr(surface, name, method if argument else typed(method))
 
 
 def add_steps(surface: type) -> None:

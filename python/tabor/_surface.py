@@ -67,7 +67,7 @@ class Surface(Shown, OnGrid, Operators, TreatmentSteps):
     Raises
     ------
     ValueError
-        For another shape, no pixel, infinite heights; where ``unit`` or ``pixel`` contradicts what the heights
+        For another shape, no pixel, infinite heights, an array without any height; where ``unit`` or ``pixel`` contradicts what the heights
         say themselves.
     TypeError
         For arrays of anything but real numbers.
@@ -369,7 +369,7 @@ class Surface(Shown, OnGrid, Operators, TreatmentSteps):
         dx, dy = (_tabor.format_si(side, "m") for side in self.pixel)
         lines = [("source", f"{self.source} ({self.format})"),
                  ("size", f"{nx} x {ny} pixels of {dx if dx == dy else dx + ' x ' + dy}"),
-                 ("heights", "in m, all there" if not self.n_holes else f"in m, {self.n_holes} holes")]
+                 ("heights", f"in m, {self.n_holes or 'no'} hole{'' if self.n_holes == 1 else 's'}")]
         lines += [("step", step) for step in self.history]
         return lines + [("warning", warning.text) for warning in self.warnings]
 

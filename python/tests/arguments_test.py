@@ -311,6 +311,18 @@ def test_an_oil_that_does_not_exist_is_refused_when_it_is_made(arguments, name):
         tb.Lubricant(*arguments)
 
 
+@pytest.mark.parametrize("call, text", [
+    (lambda t: tb.Surface(np.zeros((4, 4)), "1 um"), r"^Surface\(\) takes 1 argument by position \(z\); got 2; give the others by name: pixel=, unit="),
+    (lambda t: tb.Solid("70 GPa", 0.33), r"^Solid\(\) takes 1 argument by position \(material\); got 2; give .* youngs_modulus=, poissons_ratio="),
+    (lambda t: tb.contact(t.surface, 5e7, t.solid, 1), r"^contact\(\) takes 3 arguments by position .*; got 4; give .*, \.\.\.$"),
+    (lambda t: t.surface.section((0, 0), (1e-6, 0), 1), r"^Surface.section\(\) takes 2 arguments by position \(p, q\); got 3$"),
+    (lambda t: t.surface.mirror("x"), r"^Surface.mirror\(\) takes no arguments by position; got 1"),
+    (lambda t: tb.Surface.from_array(np.zeros((4, 4)), 1e-6, "um"), r"^Surface.from_array\(\) takes 2 arguments by position \(z, pixel\); got 3")])
+def test_too_many_arguments_by_position_are_answered_with_the_names(call, text):
+    with pytest.raises(TypeError, match=text):
+        call(things())
+
+
 def test_arguments_by_place_and_by_name_are_asked_alike():
     for arguments, named in (((things().contact, 3), {}), ((things().contact,), {"film": 3}), ((), {"contact": 3, "film": 3})):
         with pytest.raises(TypeError, match="got int 3"):

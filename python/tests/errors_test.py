@@ -28,7 +28,7 @@ def test_what_the_library_refuses_is_a_value_error(rough, tmp_path):
 
 
 def test_advice_is_in_the_words_of_python():
-    none = tb.Surface(np.full((4, 4), np.nan), pixel="1 um")
+    none = tb.Surface(np.zeros((4, 4)), pixel="1 um").apply(lambda z: z * np.nan)
     for call, words in ((lambda: none.level("plane"), r"lower degree \(treat\('level=mean'\)\)"),
                         (lambda: none.fill("harmonic"), r"check the channel \(channel=\) and the file"),
                         (lambda: none.psd(), r"fill them first \(treat\('fill=harmonic'\)\)")):

@@ -107,6 +107,12 @@ def test_a_pattern_without_files_and_an_empty_list_are_refused(folder):
         tb.parameters(3)
 
 
+def test_a_scan_that_cannot_be_treated_is_named(folder):
+    pytest.importorskip("pandas")
+    with pytest.raises(tb.InputError, match=r"before_2\.sdf: crop: got 0,0,64,64 pixels"):
+        tb.parameters([folder / "before_2.sdf"], "Sq", treatment=["crop=0,0,64,64"])
+
+
 def test_pandas_is_asked_for(monkeypatch, folder):
     monkeypatch.setitem(__import__("sys").modules, "pandas", None)
     with pytest.raises(ImportError, match="needs pandas; pip install pandas"):

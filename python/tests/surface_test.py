@@ -70,15 +70,25 @@ def test_masked_heights_are_holes():
     assert np.isnan(surface.height[masked.mask]).all()
 
 
+@pytest.mark.parametrize("n, text", [(1, "1 hole"), (2, "2 holes")])
+def test_holes_are_counted_when_a_surface_is_shown(n, text):
+    z = heights()
+    z[0, :n] = np.nan
+    assert f"heights  in m, {text}\n" in repr(tb.Surface(z, pixel=1e-6))
+
+
 def test_the_unit_of_heights_scales_them():
     z = heights()
     np.testing.assert_allclose(tb.Surface(z, pixel=1e-6, unit="um").height, z * 1e-6, rtol=1e-15)
 
 
 @pytest.mark.parametrize("z, error, text", [
-    (np.zeros(5), ValueError, r"heights: got shape \(5,\); expected \(ny, nx\)"),
-    (np.zeros((2, 2, 2)), ValueError, "heights: got shape"),
-    (np.zeros((0, 4)), ValueError, "heights: got shape"),
+    (np.zeros(5), ValueError, r"heights: got an array of 1 dimension, shape \(5,\); expected a map of shape \(ny, nx\)"),
+    (np.zeros((2, 2, 2)), ValueError, "heights: got an array of 3 dimensions"),
+    (3.0, ValueError, "heights: got one number; expected a map"),
+    (np.zeros((0, 4)), ValueError, r"heights: got an array of shape \(0, 4\), which is empty"),
+    (np.full((4, 4), np.nan), tb.InputError, "heights: got no valid height at any pixel"),
+    (np.ma.masked_all((4, 4)), tb.InputError, "heights: got no valid height at any pixel"),
     (np.array([[1, None]]), TypeError, "heights: got an array of object"),
     (np.array([["a"]]), TypeError, "heights: got an array of <U1"),
     (np.zeros((2, 2), complex), TypeError, "heights: got an array of complex128"),
@@ -179,7 +189,7 @@ def test_a_spectrum_of_no_self_affine_surface_says_so():
 def test_a_scan_is_read_and_shown(scan_file):
     surface = tb.read(scan_file)
     assert surface.format == "x3p" and surface.shape == (512, 512)
-    assert "512 x 512 pixels of 670 nm" in repr(surface)
+    assert "512 x 512 pixels of 670 nm" in repr(surface) and "heights  in m, no holes" in repr(surface)
     page = surface._repr_html_()
     assert "512 x 512" in page and "data:image/png;base64," in page
 
