@@ -106,9 +106,9 @@ def richest_window(interest):
     rows, columns = interest.shape
     side = min(max(min(rows, columns) // 5, MIN_WINDOW), MAX_WINDOW, rows, columns)
     step = max(1, side // 2)
-    counts = np.pad(np.cumsum(np.cumsum(interest, axis=0, dtype=np.int64), axis=1), ((1, 0), (1, 0)))
-    starts = [(y, x) for y in _starts(rows, side, step) for x in _starts(columns, side, step)]
-    y, x = max(starts, key=lambda start: (_inside(counts, start, side), -_from_middle(start, side, interest.shape), -start[0], -start[1]))
+    starts = _starts(rows, side, step), _starts(columns, side, step)
+    inside = _inside(interest, starts, side)
+    y, x = max(inside, key=lambda start: (inside[start], -_from_middle(start, side, interest.shape), -start[0], -start[1]))
     return Window(y, y + side, x, x + side)
 
 
@@ -125,9 +125,17 @@ def _starts(length, side, step):
     return sorted({*range(0, length - side + 1, step), length - side})
 
 
-def _inside(counts, start, side):
-    y, x = start
-    return counts[y + side, x + side] - counts[y, x + side] - counts[y + side, x] + counts[y, x]
+def _inside(interest, starts, side):
+    """{(y, x): marked pixels of the window that starts there}: sums of the tiles between all edges, of which each is counted once."""
+    rows, columns = (sorted({*begins, *(begin + side for begin in begins)}) for begins in starts)
+    tiles = [[np.count_nonzero(interest[y:y_end, x:x_end]) for x, x_end in zip(columns, columns[1:])] for y, y_end in zip(rows, rows[1:])]
+    counts = np.pad(np.cumsum(np.cumsum(tiles, axis=0), axis=1), ((1, 0), (1, 0)))
+    row, column = ({edge: place for place, edge in enumerate(edges)} for edges in (rows, columns))
+
+    def below(y, x):
+        return counts[row[y], column[x]]
+
+    return {(y, x): below(y + side, x + side) - below(y, x + side) - below(y + side, x) + below(y, x) for y in starts[0] for x in starts[1]}
 
 
 def _wetting(films):
