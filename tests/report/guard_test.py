@@ -96,7 +96,7 @@ class Guard(StudyCase):
 
         for ending in (os.abort, work_for_ever):
             guard.forget()
-            with mock.patch.multiple(guard, _read_all=lambda file: ending(), _limit=one_second):
+            with mock.patch.multiple(guard, _read_all=lambda file, share: ending(), _limit=one_second):
                 self.assertEqual(guard.problem(path), "a damaged file")
 
     def test_files_tried_together_take_one_copy(self):
@@ -111,7 +111,7 @@ class Guard(StudyCase):
         pipe = os.path.join(self.temporary_folder(), "pipe")
         os.mkfifo(pipe)
 
-        def abort_over_one(file):
+        def abort_over_one(file, share):
             if file.filename.endswith("bad.h5"):
                 os.abort()
 

@@ -33,8 +33,7 @@ from tabor.report.figures import spectra as spectrum
 
 def open_result(path):
     """A Study or a Single from a folder or file; raises InputError in one line."""
-    path = Path(path)
-    path = path / "results.h5" if path.is_dir() else path
+    path = hdf.file_of(path)
     if path.suffix == ".csv":
         return parameters.load(path)
     file = hdf.open_file(path)
@@ -58,7 +57,7 @@ def build(source, folder, options, command):
     """Writes DIR/report.html, and DIR/figures/* where formats are asked for; returns the files' paths."""
     style.apply()
     folder = Path(folder)
-    live = live_page.Live(source, options) if options.html and not options.static and interactive.is_possible() else None
+    live = live_page.Live(source, options) if interactive.is_asked_for(options) else None
     output.make_folder(folder / "figures" if options.figures else folder)
     shown, paths = [], []
     for drawn in _drawings(source, options, with_maps=bool(options.figures) or live is None):

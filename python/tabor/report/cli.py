@@ -56,8 +56,13 @@ def make(result, output=None, *, html=True, static=False, figures=None, scan=Non
 
 def _run(result, output, options, command):
     # Imported late: these modules need the libraries that were just checked.
-    from tabor.report import applicable, build
+    from tabor.report import hdf
 
+    hdf.begin(result)  # it is tried while this process imports the rest
+    from tabor.report import applicable, build, interactive
+
+    if interactive.is_asked_for(options):
+        interactive.load()
     source = build.open_result(result)
     with source.file:
         applicable.check(source, options)

@@ -12,6 +12,7 @@ from tabor.report import seal
 
 MIB = 1 << 20
 LARGEST_RATIO = 1100  # deflate shrinks at most 1032 : 1
+LARGE = 32 * MIB  # bytes of files from which two copies share the work
 
 _FOREIGN_LINK = "a link to a file that is not in its store"
 _VALUES_ELSEWHERE = "values kept in other files"
@@ -25,25 +26,39 @@ class _Rejection(Exception):
 
 
 _found = {}  # path: what problem() says of it
+_begun = {}  # path: the _Trial of a file that is being tried
+
+
+def begin(path):
+    """Starts to try the file beside what this process does before it asks for problem()."""
+    if path in _found or path in _begun:
+        return
+    refusal = _refusal(path)
+    if refusal:
+        _found[path] = refusal
+    else:
+        _begun[path] = _Trial([path])
 
 
 def problem(path):
-    """Why the file is not to be read; "" if a copy of this process has read all of it."""
-    if path not in _found:
-        _found[path] = _refusal(path) or _ending([path])
+    """Why the file is not to be read; "" if copies of this process have read all of it."""
+    begin(path)
+    if path in _begun:
+        _found[path] = _begun.pop(path).ending()
     return _found[path]
 
 
 def try_together(paths):
-    """Tries many files in one copy of this process. Where it does not end well, problem() tries each in one of its own."""
+    """Tries many files at once. Where that does not end well, problem() tries each by itself."""
     sound = [path for path in dict.fromkeys(paths) if path not in _found and not _refusal(path)]
-    if len(sound) > 1 and not _ending(sound):
+    if len(sound) > 1 and not _Trial(sound).ending():
         _found.update(dict.fromkeys(sound, ""))
 
 
 def forget():
     """Files are tried again."""
     _found.clear()
+    _begun.clear()
 
 
 def _refusal(path):
@@ -56,25 +71,60 @@ def _refusal(path):
         return error.strerror.lower()
 
 
-def _ending(paths):
-    """What became of a copy of this process that read these files."""
-    try:
-        child = os.fork()
-    except OSError as error:
-        return f"no process to try it in ({error.strerror.lower()})"
+class _Trial:
+    """Copies of this process that read these files, each its share."""
+
+    def __init__(self, paths):
+        self._failure, self._children = "", []
+        n_copies = _number_of_copies(paths)
+        try:
+            for number in range(n_copies):
+                self._children.append(_copy(paths, _Share(number, n_copies)))
+        except OSError as error:
+            self._failure = f"no process to try it in ({error.strerror.lower()})"
+
+    def ending(self):
+        """What became of them."""
+        endings = [_ending(child) for child in self._children]
+        return next(filter(None, [self._failure, *endings]), "")
+
+
+class _Share:
+    """The data sets that one copy reads: the next is for the one that has the fewest bytes so far."""
+
+    def __init__(self, number, n_copies):
+        self._number, self._bytes = number, [0] * n_copies
+
+    def takes(self, dataset):
+        chosen = self._bytes.index(min(self._bytes))
+        self._bytes[chosen] += dataset.nbytes if dataset.size else 0
+        return chosen == self._number
+
+
+def _number_of_copies(paths):
+    return 2 if sum(map(os.path.getsize, paths)) >= LARGE and len(os.sched_getaffinity(0)) > 1 else 1
+
+
+def _copy(paths, share):
+    """The id of a copy of this process that reads its share of these files and ends."""
+    child = os.fork()
     if child == 0:
-        _try_and_exit(paths)
+        _try_and_exit(paths, share)
+    return child
+
+
+def _ending(child):
     _, ending = os.waitpid(child, 0)
     code = os.waitstatus_to_exitcode(ending)
     return "" if code == 0 else _REJECTIONS.get(code, "a damaged file")
 
 
-def _try_and_exit(paths):
+def _try_and_exit(paths, share):
     code = _DAMAGED
     try:
         _limit(sum(os.path.getsize(path) for path in paths))
         for path in paths:
-            _try(path)
+            _try(path, share)
         code = 0
     except _Rejection as rejection:
         code = next(code for code, text in _REJECTIONS.items() if text == str(rejection))
@@ -82,13 +132,13 @@ def _try_and_exit(paths):
         os._exit(code)
 
 
-def _try(path):
+def _try(path, share):
     try:
         file = h5py.File(path, "r")
     except OSError:
         return  # what is wrong is said where it is opened
     with file:
-        _read_all(file)
+        _read_all(file, share)
 
 
 def _limit(size):
@@ -107,19 +157,20 @@ def _address_space():
         return int(file.read().split()[0]) * resource.getpagesize()
 
 
-def _read_all(file):
-    _look_at(file)
-    file.visititems(lambda name, node: _look_at(node))
+def _read_all(file, share):
+    _look_at(file, share)
+    file.visititems(lambda name, node: _look_at(node, share))
 
 
-def _look_at(node):
+def _look_at(node, share):
     _without_errors(lambda: list(node.attrs.items()))
     if isinstance(node, h5py.Group):
         for name in node:
             _check_link(node, name)
     elif isinstance(node, h5py.Dataset):
         _check_values(node)
-        _without_errors(lambda: _read(node))
+        if share.takes(node):
+            _without_errors(lambda: _read(node))
 
 
 def _check_link(group, name):

@@ -14,6 +14,19 @@ from tabor.report import guard
 from tabor.report.errors import InputError, readable
 
 
+def file_of(result):
+    """The path of a result's file; that of a study may be given by its folder."""
+    path = Path(result)
+    return path / "results.h5" if path.is_dir() else path
+
+
+def begin(result):
+    """Starts to try the file of a result, which open_file() waits for."""
+    path = file_of(result)
+    if path.suffix != ".csv":
+        guard.begin(str(path))
+
+
 def open_file(path):
     """Opens for reading; raises InputError in one line if it is no tabor result."""
     rejection = guard.problem(str(path))

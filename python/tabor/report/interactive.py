@@ -10,6 +10,16 @@ TALLEST = 620
 NOT_ON_PAPER = "@media print { :host { display: none !important; } }"  # the page's own styles do not reach into a figure
 
 
+def is_asked_for(options):
+    """Whether the page is interactive, as far as this Python can make it so."""
+    return options.html and not options.static and is_possible()
+
+
+def load():
+    """Imports what takes long and has to be imported for a page."""
+    from bokeh import document, models, plotting  # noqa: F401
+
+
 def is_possible():
     """Whether this Python has Bokeh, and a Pillow that writes WebP."""
     if any(importlib.util.find_spec(name) is None for name in ("bokeh", "PIL")):

@@ -13,7 +13,7 @@ _DRAWN_THINNED = {"pressure": "the pressure", "film": "the lubricant"}  # where 
 
 class Live:
     def __init__(self, source, options):
-        found = _maps_of(source, options)  # before Bokeh is imported: a file that lacks something is soon rejected
+        found = _maps_of(source, options)
         self.document = interactive.Document()
         self.maps = [self._maps(maps, *viewer.encoded(maps, 1 / len(found))) for maps in found]
         self.n_other_scans = 0
