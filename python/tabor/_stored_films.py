@@ -43,6 +43,11 @@ def _axes_in(group: Any) -> dict[str, tuple[Any, ...]]:
     return axes
 
 
+def _units_in(group: Any) -> dict[str, str]:
+    """SI units of the values of each key."""
+    return {key: str(plain(group["axes"][key].attrs.get("units", ""))) for key in texts_of(group, "axes")}
+
+
 def _warnings_of_cases(group: Any, kinds: Mapping[str, str]) -> list[tuple[Warning, ...]]:
     """Of each case; the file says the class of each code once."""
     texts, codes = (group[name].asstr()[()] for name in ("warnings", "warning_codes"))
@@ -65,5 +70,5 @@ def sweep_in(file: Any) -> Sweep:
                  for row, place in enumerate(np.ndindex(*(len(values) for values in axes.values()))))
     found = Sweep.__new__(Sweep)
     found.__dict__.update(axes=axes, rows=rows, columns=columns, limits={}, warnings=warnings, references=texts_of(file, "methods"),
-                          n_computed=0, _swept=None, converged=bool(converged.all()))
+                          n_computed=0, _swept=None, _units=_units_in(group), converged=bool(converged.all()))
     return found

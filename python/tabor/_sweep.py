@@ -40,7 +40,8 @@ class Sweep(Shown):
     n_computed: int  #: cases; the others were in the folder
     converged: bool  #: all of them
 
-    def __init__(self, swept: _tabor.SweptCases, given: Mapping[str, list[Any]], references: tuple[str, ...]) -> None:
+    def __init__(self, swept: _tabor.SweptCases, given: Mapping[str, list[Any]], units: Mapping[str, str],
+                 references: tuple[str, ...]) -> None:
         axes = {key: tuple(given[key] if any(map(_is_word, given.get(key, ()))) else numbers)
                 for key, numbers in swept.axes}
         cases = [({**json.loads(text), "converged": status == _CONVERGED, **({"status": status, "error": error} if status == _REJECTED else {})},
@@ -50,7 +51,7 @@ class Sweep(Shown):
                      for place, (values, warnings) in zip(places, cases))
         limits = {key: Limit(*limit) for (key, _, _), limit in zip(swept.columns, swept.limits)}
         self.__dict__.update(axes=axes, rows=rows, columns=tuple(swept.columns), limits=limits, warnings=warnings_of(swept.warnings),
-                             references=references, n_computed=swept.n_computed, _swept=swept,
+                             references=references, n_computed=swept.n_computed, _swept=swept, _units={key: units.get(key, "") for key in axes},
                              converged=all(row["converged"] for row in rows))
 
     def __setattr__(self, name: str, value: Any) -> None:
@@ -73,6 +74,11 @@ class Sweep(Shown):
         if self.__dict__["_swept"] is None:
             raise ValueError("save: what a file is made of does not travel with a pickle; save it where it is swept")
         self.__dict__["_swept"].save(path)
+
+    def _unit(self, key: str) -> str:
+        """SI unit of the values of an axis; "" for plain numbers and words."""
+        is_word = any(isinstance(one, str) for one in self.axes[key])
+        return "" if is_word else self.__dict__.get("_units", {}).get(key, "")
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -128,13 +134,13 @@ class Sweep(Shown):
         lines = self[key].reshape(len(values), -1)
         ax = ax or needs("matplotlib.pyplot", "plot()").gca()
         for line, place in zip(lines.T, np.ndindex(*(len(many) for _, many in others))):
-            said_by = ", ".join(f"{name} = {_text(many[i])}" for (name, many), i in zip(others, place))
+            said_by = ", ".join(f"{name} = {_text(many[i], self._unit(name))}" for (name, many), i in zip(others, place))
             ax.plot(_coordinate(values), line, **{"label": said_by or None, "marker": ".", **style})
         if not any(isinstance(one, str) for one in values) and min(values) > 0 and max(values) >= 10 * min(values):
             ax.set_xscale("log")
         heading, unit = next(((text, unit) for name, text, unit in self.columns if name == key), (key, ""))
-        ax.set_xlabel(first)
-        ax.set_ylabel(f"{heading or key} [{unit}]" if unit else heading or key)
+        ax.set_xlabel(_label(first, self._unit(first)))
+        ax.set_ylabel(_label(heading or key, unit))
         if others:
             ax.legend()
         return ax
@@ -152,13 +158,13 @@ class Sweep(Shown):
         columns: dict[str, Any] = {key: (dims, self[key], {"long_name": heading, "units": unit})
                                    for key, heading, unit in self.columns}
         columns["converged"] = (dims, self["converged"].astype(np.int8))
-        return xarray.Dataset(columns, coords={key: _coordinate(values) for key, values in self.axes.items()},
+        return xarray.Dataset(columns, coords={key: (key, _coordinate(values), {"units": self._unit(key)} if self._unit(key) else {})
+                                       for key, values in self.axes.items()},
                               attrs=said(self.warnings, self.references))
 
     def _lines(self) -> list[tuple[str, str]]:
         good = sum(row["converged"] for row in self.rows)
-        lines = [(key, ", ".join(f"{one:g}" if isinstance(one, float) else str(one) for one in values))
-                 for key, values in self.axes.items()]
+        lines = [(key, f"{', '.join(map(_text, values))} {self._unit(key)}".rstrip()) for key, values in self.axes.items()]
         heading = {key: text for key, text, _ in self.columns}
         lines += [(f"limit of {heading[key]}", f"{limit.value:.6g}" + (f" (order {limit.order:.2g})" if np.isfinite(limit.order) else ""))
                   for key, limit in self.limits.items() if np.isfinite(limit.value)]
@@ -183,8 +189,13 @@ def _inside(row: Mapping[str, Any], key: str) -> Any:
     return _inside(inner, rest) if rest and isinstance(inner, Mapping) else None
 
 
-def _text(value: Any) -> str:
-    return f"{value:g}" if isinstance(value, float) else str(value)
+def _text(value: Any, unit: str = "") -> str:
+    return f"{value:g} {unit}".rstrip() if isinstance(value, float) else str(value)
+
+
+def _label(text: str, unit: str) -> str:
+    """A heading with its unit, for an axis of a plot."""
+    return f"{text} [{unit}]" if unit else text
 
 
 def _names(row: Mapping[str, Any], before: str = "") -> Iterator[str]:

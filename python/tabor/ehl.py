@@ -88,11 +88,14 @@ class Solution(Shown):
 
     @typed
     def save(self, file: Path) -> None:
-        """Writes the file of ``tabor ehl -o``, with histories and profiles. Raises OSError, and ValueError for
-        a solution that came out of a pickle, which has its numbers alone."""
+        """Writes the file of ``tabor ehl -o``, with histories and profiles, which ends with .h5. Raises OSError, and
+        ValueError for another ending and for a solution that came out of a pickle, which has its numbers alone."""
+        target = pathlib.Path(file)
+        if target.suffix not in (".h5", ".hdf5"):
+            raise ValueError(f"{target}: expected a name that ends with .h5 or .hdf5")
         if self._solved is None:
             raise ValueError("save: histories and profiles do not travel with a pickle; save it where it is solved")
-        self._solved.save(pathlib.Path(file))
+        self._solved.save(target)
 
     def _all_columns(self) -> Mapping[str, Column]:
         """Histories, profiles and maps as the file of ``save`` has them."""
@@ -119,7 +122,7 @@ class Solution(Shown):
                               {**plain_attributes(self.values), **said(self.warnings, self.references)})
 
     def _lines(self) -> list[tuple[str, str]]:
-        return [*self.facts, *(("warning", warning.text) for warning in self.warnings)]
+        return [*((heading, text) for heading, text in self.facts if text), *(("warning", warning.text) for warning in self.warnings)]
 
     def _title(self) -> str:
         return f"Solution of ehl {self.program}"
@@ -225,7 +228,7 @@ class Case(Named):
         return self._swept(swept, {}, check)
 
     def _swept(self, swept: _tabor.SweptCases, given: Mapping[str, list[Any]], check: bool) -> Sweep:
-        found = Sweep(swept, given, tuple(_tabor.case_references(self._case)))
+        found = Sweep(swept, given, _units(self.program), tuple(_tabor.case_references(self._case)))
         if check and not found.converged:
             errors = [row["error"] for row in found.rows if "error" in row]
             bad = sum(not row["converged"] for row in found.rows) - len(errors)

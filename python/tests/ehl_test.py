@@ -73,6 +73,9 @@ def test_its_file_is_that_of_the_command_line(program, file, tmp_path):
         assert mine.attrs["kind"] == theirs.attrs["kind"] and mine.attrs["config_toml"] == theirs.attrs["config_toml"]
     assert tb.cite(tmp_path / "a.h5") == tb.cite(tmp_path / "b.h5")
     assert tb.cite(found).startswith("@software{tabor,")
+    with pytest.raises(ValueError, match=r"expected a name that ends with \.h5 or \.hdf5"):
+        found.save(tmp_path / "c.csv")
+    assert not (tmp_path / "c.csv").exists()
 
 
 def test_a_pickled_solution_has_its_numbers(file, tmp_path):
@@ -230,6 +233,24 @@ def test_a_sweep_goes_to_pandas_and_xarray(case):
     maps = found.to_xarray()
     assert maps.central_film_m.sel({"motion.speed": 1.0}) == found["central_film_m"][1]
     assert maps.central_film_m.attrs["units"] == "m"
+
+
+def test_values_of_a_sweep_have_their_units(case, tmp_path):
+    pyplot = pytest.importorskip("matplotlib.pyplot")
+    for package in ("h5py", "xarray"):
+        pytest.importorskip(package)
+    found = case.sweep({"motion.speed": ["0.5 m/s", "1 m/s"], "roughness.kind": ["lapped-like", "polished-like"]})
+    found.save(tmp_path / "sweep.h5")
+    for one in (found, tb.load(tmp_path / "sweep.h5"), pickle.loads(pickle.dumps(found))):
+        assert "motion.speed    0.5, 1 m/s\n" in repr(one) and "roughness.kind  lapped-like, polished-like\n" in repr(one)
+        assert one.plot(ax=pyplot.figure().gca()).get_xlabel() == "motion.speed [m/s]"
+        pyplot.close()
+        coords = one.to_xarray().coords
+        assert coords["motion.speed"].attrs == {"units": "m/s"} and coords["roughness.kind"].attrs == {}
+
+
+def test_a_solution_shows_no_empty_line(file):
+    assert all(len(line.split()) > 1 for line in repr(tb.ehl.squeeze(file).solve()).splitlines())
 
 
 def test_a_sweep_in_a_folder_goes_on(case, tmp_path):

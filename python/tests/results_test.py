@@ -125,7 +125,7 @@ def test_a_sweep_is_drawn(swept):
     swept.plot("min_film_m", ax)
     assert [len(line.get_xdata()) for line in ax.lines] == [3, 3] and ax.get_xscale() == "log"
     np.testing.assert_array_equal(ax.lines[1].get_ydata(), swept.min_film_m[:, 1])
-    assert ax.get_xlabel() == "lubricant.viscosity" and "[m]" in ax.get_ylabel() and "roller.speed" in ax.get_legend().get_texts()[0].get_text()
+    assert ax.get_xlabel() == "lubricant.viscosity [Pa s]" and "[m]" in ax.get_ylabel() and ax.get_legend().get_texts()[0].get_text().endswith(" m/s")
     with pytest.raises(ValueError, match="field: Sweep has no 'mu'"):
         swept.plot("mu")
     pyplot.close(figure)
