@@ -75,6 +75,10 @@ GUESSES: Mapping[str, Mapping[str, str]] = {
         "to_dataframe": "to_xarray().to_dataframe() is one",
         "interp": "numpy.interp(density, curve.lubricant_density, curve.friction_lubricated) does it",
     },
+    "Slide": {
+        "plot": "save(file) and tabor.report(file, folder) draw it; after.plot() draws the sheet after sliding",
+        **dict.fromkeys(("values", "rows"), "states has the numbers of each state, over states[\"distance_m\"]"),
+    },
     "Solution": {
         "plot": "tabor.report(solution, folder) draws it", "film": 'values has "central_film_m" and "min_film_m"; save(file) writes the map',
         "pressure": 'values has "max_pressure_Pa"; save(file) writes the map',

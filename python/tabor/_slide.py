@@ -14,18 +14,17 @@ from ._contact import NotConverged, Solid, _settings, solid_of
 from ._doubts import tell
 from ._friction import film_settings, shear_settings
 from ._progress import Progress, watching
-from ._records import Fields, Warning, said, warnings_of
+from ._records import Fields, Shown, Warning, said, warnings_of
 from ._setting_types import SlideSettings
 from ._settings import CONTACT, DRY_BELOW, OWN_OF_SLIDE, RAIN, SHEAR, SLIDE, TRAPPED, complete, filled, takes
-from ._guesses import Named
 from ._maps import Array
 from ._optional import needs
 from ._surface import Surface
 from ._values import Value, si, si_list
 
 
-@dataclass(frozen=True)
-class Slide(Named):
+@dataclass(frozen=True, repr=False)
+class Slide(Shown):
     """A sheet before, along and after sliding."""
 
     states: Mapping[str, Array]  #: numbers of the states by their keys, as of ``tabor slide --json``; docs/sliding.md
@@ -40,7 +39,7 @@ class Slide(Named):
     converged: bool  #: every contact along the way
     warnings: tuple[Warning, ...]
     references: tuple[str, ...]  #: to cite
-    _slid: _tabor.Slid | None = field(repr=False, compare=False)  # what a file is made of; None out of a file or a pickle
+    _slid: _tabor.Slid | None = field(compare=False)  # what a file is made of; None out of a file or a pickle
     _write: ClassVar[Callable[..., None]]  # ``tabor.save``, which puts itself here
 
     def to_xarray(self) -> Any:
@@ -69,8 +68,13 @@ class Slide(Named):
         facts = {"step_m": self.step, "steps": self.steps, "converged": int(self.converged)}
         return xarray.Dataset(found, coords, {**facts, **said(self.warnings, self.references)})
 
-    def __repr__(self) -> str:
-        return f"<Slide: {_tabor.format_si(float(self.states['distance_m'][-1]), 'm')} in {self.steps} steps, {len(self.states['distance_m'])} states>"
+    def _lines(self) -> list[tuple[str, str]]:
+        distance = _tabor.format_si(float(self.states["distance_m"][-1]), "m")
+        frictions = [(word, f"friction_{word}") for word in ("dry", "lubricated", "ploughing")]
+        lines = [("distance", f"{distance} in {self.steps} steps"),
+                 ("states", f"{len(self.states['distance_m'])}, {len(self.maps)} of them with maps"),
+                 *((word, f"{self.states[key][-1]:.4g} at the end") for word, key in frictions if key in self.states)]
+        return [*lines, *([] if self.converged else [("converged", "no")]), *(("warning", one.text) for one in self.warnings)]
 
     def __getstate__(self) -> dict[str, Any]:
         kept = {number: {name: np.array(one) for name, one in maps.items()} for number, maps in self.maps.items()}

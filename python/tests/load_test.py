@@ -167,6 +167,14 @@ def test_a_slide(tile, tmp_path):
             tb.save(tmp_path / "b.h5", copy)
 
 
+def test_a_slide_shows_where_it_ended_and_its_warnings(tile):
+    given = tb.slide(tile, "7 MPa", SOLID, "2 um", step="0.67 um", density="0.9 g/m^2", tool="ground:Sa=0.1um")
+    shown = repr(given)
+    assert shown.startswith(f"Slide\n  distance    2.01 µm in {given.steps} steps\n")
+    assert f"lubricated  {given.states['friction_lubricated'][-1]:.4g} at the end" in shown
+    assert all(one.text in shown for one in given.warnings) and "<table>" in given._repr_html_()
+
+
 def test_a_slide_of_the_command_line(program, scan_file, tmp_path):
     subprocess.run([program, "slide", scan_file, "--level", "plane", "--crop", "96,96,32,32", "--mirror", "--pressure", "7MPa", "--material",
                     "aluminium-6016", "--tool", "ground:Sa=0.1um", "--distance", "2um", "-o", tmp_path / "a.h5", "--quiet"],

@@ -22,6 +22,7 @@ TRIED = {
     "Friction": "mu cof mixed plot surface to_xarray",
     "Parameters": "Sa get keys items to_dict to_series",
     "DensityCurve": "density friction to_dataframe to_xarray interp",
+    "Slide": "plot values rows to_xarray after",
     "Sweep": "min_film_m values plot",
     "Solution": "to_xarray plot film pressure central_film min_film",
     "Case": "replace",
@@ -31,7 +32,7 @@ TRIED = {
 THERE = {
     "tabor": "load show_versions Value parameters", "type Surface": "from_array from_xarray",
     "Surface": "dx dy x y extent mask name unit ndim section save", "Contact": "force max_pressure touching patches saturated plot",
-    "Friction": "plot to_xarray", "Parameters": "Sa get keys items", "DensityCurve": "to_xarray", "Sweep": "min_film_m plot",
+    "Friction": "plot to_xarray", "Parameters": "Sa get keys items", "DensityCurve": "to_xarray", "Slide": "to_xarray after", "Sweep": "min_film_m plot",
     "Solution": "to_xarray",
 }
 
@@ -44,6 +45,7 @@ def things():
     case = tb.ehl.squeeze(tb.ehl.template("squeeze"))
     return {"tabor": tb, "type Surface": tb.Surface, "type Contact": tb.Contact, "Surface": surface, "Contact": contact, "Film": film,
             "Friction": tb.friction(contact, film), "Parameters": surface.parameters(), "DensityCurve": tb.density_curve(contact),
+            "Slide": tb.slide(surface, "10 MPa", "aluminium-6016", "0.67 um", tool="ground:Sa=50nm", check=False),
             "Sweep": case.sweep({"lubricant.viscosity": ["0.4 Pa s"]}), "Solution": case.solve(), "Case": case}
 
 
