@@ -20,6 +20,7 @@ def _draw(ax: Axes, q: Array, density: Array, unit: str, style: dict[str, Any]) 
     """A density over wavevectors with logarithmic axes."""
     ax = ax or needs("matplotlib.pyplot", "plot()").gca()
     ax.loglog(q, density, **style)
+    ax.xaxis.set_minor_locator(needs("matplotlib.ticker", "plot()").LogLocator(subs=(2, 5)))  # more labels overlap
     ax.set_xlabel("q [rad/m]")
     ax.set_ylabel(f"density [{unit}]")
     return ax

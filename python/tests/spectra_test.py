@@ -68,6 +68,11 @@ def test_bad_input(scans):
 
 
 def test_it_is_drawn(scans):
-    pytest.importorskip("matplotlib")
-    axes = tb.mean_spectra([scan.psd() for scan in scans]).radial.plot(label="mean")
+    pyplot = pytest.importorskip("matplotlib.pyplot")
+    figure, axes = pyplot.subplots()
+    tb.mean_spectra([scan.psd() for scan in scans]).radial.plot(axes, label="mean")
     assert axes.get_xlabel() == "q [rad/m]" and axes.get_ylabel() == "density [m^4]"
+    figure.canvas.draw()
+    boxes = [label.get_window_extent() for label in axes.get_xticklabels(which="both") if label.get_text()]
+    assert not any(a.overlaps(b) for i, a in enumerate(boxes) for b in boxes[:i] if a != b)
+    pyplot.close(figure)
