@@ -11,6 +11,7 @@ from . import _tabor
 from ._arguments import Count, Path, typed, whole
 from ._cases import table_to_xarray
 from ._errors import require_file
+from ._guesses import Named
 from ._values import Value, si_list
 
 
@@ -29,7 +30,7 @@ class FrictionEntry(NamedTuple):
     n: int  #: scans
 
 
-class FrictionTable:
+class FrictionTable(Named):
     """Coefficients of friction over pressure, density of the oil and sliding speed (docs/friction_tables.md).
 
     Parameters

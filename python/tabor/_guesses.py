@@ -75,6 +75,15 @@ GUESSES: Mapping[str, Mapping[str, str]] = {
         "to_dataframe": "to_xarray().to_dataframe() is one",
         "interp": "numpy.interp(density, curve.lubricant_density, curve.friction_lubricated) does it",
     },
+    "Results": {
+        **dict.fromkeys(("values", "data"), "rows has the numbers of each case, averages those of each group"),
+        **dict.fromkeys(("to_dataframe", "to_pandas", "df"), "table is a DataFrame of the rows"),
+        "plot": "tabor.report(folder) draws it", "errors": "failures says what failed",
+    },
+    "FrictionTable": {
+        **dict.fromkeys(("values", "rows", "table"), "entries has the coefficients"),
+        **dict.fromkeys(("save", "write"), 'to_csv(file) and to_abaqus(file, units="mm,s,t") write it'),
+    },
     "Slide": {
         "plot": "save(file) and tabor.report(file, folder) draw it; after.plot() draws the sheet after sliding",
         **dict.fromkeys(("values", "rows"), "states has the numbers of each state, over states[\"distance_m\"]"),

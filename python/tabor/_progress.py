@@ -22,7 +22,7 @@ def set_threads(n: Count) -> None:
 
     Parameters
     ----------
-    n : so many; 0, as many as there are processors.
+    n : number of threads; 0, as many as there are processors.
 
     Raises
     ------

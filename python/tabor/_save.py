@@ -73,8 +73,9 @@ def _records(results: Any) -> Sequence[Any]:
     for one in several:
         if not isinstance(one, (Contact, Film, Friction)):
             raise wrong("results", several, expected)
-    if len({type(one) for one in several}) != 1:
-        raise ValueError("results: expected contacts, films or frictions, of one kind")
+    kinds = dict.fromkeys(type(one).__name__ for one in several)
+    if len(kinds) != 1:
+        raise ValueError(f"results: got {' and '.join(kinds) or 'an empty list'}; expected contacts, films or frictions, of one kind")
     return several
 
 

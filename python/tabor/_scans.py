@@ -14,6 +14,7 @@ from typing import Any, Literal, Unpack
 
 from . import _tabor
 from ._arguments import Path, mapping, path, wrong
+from ._guesses import Named
 from ._setting_types import ScanSettings
 from ._settings import OF_SCANS, Setting, complete, documented, is_surface, takes
 from ._surface import Surface
@@ -112,7 +113,7 @@ def _files(pattern: Path) -> list[str]:
 
 
 @documented(OF_SCANS)
-class Scans:
+class Scans(Named):
     """Scan files of a study with settings of their own, in place of those of the study.
 
     Parameters
@@ -158,15 +159,19 @@ class Scans:
         return "".join(table("[[scan]]", {"file": text(file), "group": text(group), **self._lines}) for file in files)
 
 
-def scan_tables(scans: Mapping[str, Any], surfaces: SurfaceFiles) -> str:
-    """The [[scan]] tables of groups with a file, a pattern, a Surface, ``Scans``, or a list of them each."""
+def scan_tables(scans: Mapping[str, Any], surfaces: SurfaceFiles, *, needs_pressure: bool = False) -> str:
+    """The [[scan]] tables of groups with a file, a pattern, a Surface, ``Scans``, or a list of them each. With
+    ``needs_pressure`` each must have its own."""
     if not isinstance(scans, Mapping):
         more = "; tabor.Study.read takes a study file" if isinstance(scans, (str, os.PathLike)) else ""
         raise wrong("scans", scans, f'groups with their files, {{"before": "before_*.x3p"}}{more}')
     tables = ""
     for group, members in mapping(scans, "scans").items():
         for one in _members(members, group):
-            tables += (one if isinstance(one, Scans) else Scans(one))._tables(group, surfaces)
+            several = one if isinstance(one, Scans) else Scans(one)
+            if needs_pressure and several._lines["pressure"] is None:
+                raise ValueError(f"pressure: missing for group {group!r}; give Study a pressure, or each of its Scans one of its own")
+            tables += several._tables(group, surfaces)
     return tables
 
 

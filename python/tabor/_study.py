@@ -17,6 +17,7 @@ from ._doubts import tell
 from ._errors import InputFileNotFound, require_file
 from ._friction import Lubricant
 from ._friction_table import FrictionTable
+from ._guesses import Named
 from ._optional import needs
 from ._parts import run as run_parts
 from ._progress import Progress, watching
@@ -49,7 +50,7 @@ def _slide_lines(slide: Mapping[str, Any]) -> dict[str, str | None]:
 
 
 @documented(STUDY)
-class Study:
+class Study(Named):
     """Friction of many scans under many pressures with many densities of oil; the same as a study file
     of ``tabor sweep``.
 
@@ -88,7 +89,7 @@ class Study:
         if (lubricant is None) != (speed is None):
             raise ValueError("Study: oil that flows needs both a lubricant and a speed")
         self._surfaces = SurfaceFiles()
-        tables = scan_tables(scans, self._surfaces)
+        tables = scan_tables(scans, self._surfaces, needs_pressure=pressure is None)
         solid = solid_of(solid)
         values = complete(STUDY, settings)
         for one in SOLID:
@@ -191,7 +192,7 @@ def _value(key: str, cell: str) -> float | bool | str:
         return cell
 
 
-class Results:
+class Results(Named):
     """The tables in a folder of ``Study.run`` or ``tabor sweep``. ``warnings`` are reasons to doubt their numbers,
     ``failures`` the cases without; where ``run`` made it, what it met on the way is among them."""
 
@@ -271,4 +272,6 @@ class Results:
         return found.assign_attrs({key: text for key, text in lines.items() if text})
 
     def __repr__(self) -> str:
-        return f"Results in {self.folder}: {len(self.rows)} rows"
+        counts = ((len(self.rows), "row"), (len(self.failures), "failure"), (len(self.warnings), "warning"))
+        said = (f"{n} {word}{'' if n == 1 else 's'}" for n, word in counts if n or word == "row")
+        return f"Results in {self.folder}: {', '.join(said)}"

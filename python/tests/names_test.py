@@ -23,6 +23,7 @@ TRIED = {
     "Parameters": "Sa get keys items to_dict to_series",
     "DensityCurve": "density friction to_dataframe to_xarray interp",
     "Slide": "plot values rows to_xarray after",
+    "Results": "values data to_dataframe plot errors rows", "FrictionTable": "values rows save entries",
     "Sweep": "min_film_m values plot",
     "Solution": "to_xarray plot film pressure central_film min_film",
     "Case": "replace",
@@ -32,18 +33,20 @@ TRIED = {
 THERE = {
     "tabor": "load show_versions Value parameters", "type Surface": "from_array from_xarray",
     "Surface": "dx dy x y extent mask name unit ndim section save", "Contact": "force max_pressure touching patches saturated plot",
-    "Friction": "plot to_xarray", "Parameters": "Sa get keys items", "DensityCurve": "to_xarray", "Slide": "to_xarray after", "Sweep": "min_film_m plot",
+    "Friction": "plot to_xarray", "Parameters": "Sa get keys items", "DensityCurve": "to_xarray", "Slide": "to_xarray after", "Results": "rows",
+    "FrictionTable": "entries", "Sweep": "min_film_m plot",
     "Solution": "to_xarray",
 }
 
 
 @pytest.fixture(scope="module")
-def things():
+def things(tmp_path_factory):
     surface = tb.generate("edt", pixels=32, seed=1)
     contact = tb.contact(surface, "10 MPa", "aluminium-6016")
     film = tb.rain(surface, "0.45 g/m^2")
     case = tb.ehl.squeeze(tb.ehl.template("squeeze"))
-    return {"tabor": tb, "type Surface": tb.Surface, "type Contact": tb.Contact, "Surface": surface, "Contact": contact, "Film": film,
+    results = tb.Study({"a": surface}, "aluminium-6016", pressure="10 MPa").run(tmp_path_factory.mktemp("names"))
+    return {"tabor": tb, "Results": results, "FrictionTable": results.friction_table(), "type Surface": tb.Surface, "type Contact": tb.Contact, "Surface": surface, "Contact": contact, "Film": film,
             "Friction": tb.friction(contact, film), "Parameters": surface.parameters(), "DensityCurve": tb.density_curve(contact),
             "Slide": tb.slide(surface, "10 MPa", "aluminium-6016", "0.67 um", tool="ground:Sa=50nm", check=False),
             "Sweep": case.sweep({"lubricant.viscosity": ["0.4 Pa s"]}), "Solution": case.solve(), "Case": case}
@@ -78,7 +81,7 @@ def test_what_the_tables_know_is_not_there_and_what_they_advise_is(things):
 
 def test_a_misspelt_name_has_the_nearest(things):
     for kind, name, near in (("Surface", "heigth", "height"), ("Contact", "presure", "pressure"), ("tabor", "surface", "Surface"),
-                             ("Film", "Thickness", "thickness"), ("tabor", "densty_curve", "density_curve")):
+                             ("Film", "Thickness", "thickness"), ("Results", "row", "rows"), ("tabor", "densty_curve", "density_curve")):
         with pytest.raises(AttributeError, match=f"has no '{name}'; did you mean '{near}'"):
             getattr(things[kind], name)
     with pytest.raises(AttributeError, match="has no 'xyzzy'$"):
