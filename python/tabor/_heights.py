@@ -75,7 +75,7 @@ def checked(z: Any, name: str = "heights") -> Array:
     try:
         heights = np.asarray(z)
     except Exception as error:
-        raise TypeError(f"{name}: got {type(z).__name__} that is no array; expected real numbers") from error
+        raise TypeError(f"{name}: got {type(z).__name__} that is no array; expected real numbers in rows of one length") from error
     if heights.dtype.kind not in "fiu":
         raise TypeError(f"{name}: got an array of {heights.dtype}; expected real numbers")
     if heights.ndim != 2 or heights.size == 0:

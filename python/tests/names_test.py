@@ -11,7 +11,7 @@ from tabor import _guesses
 #: What was tried and not found, as users wrote it.
 TRIED = {
     "tabor": """load open read_result load_result hertz datasets lubricants oils set_num_threads get_threads threads show_versions
-                Value stribeck parameters""",
+                Value stribeck parameters compare wear psd plot press solve film write Oil""",
     "type Surface": "from_array from_xarray read", "type Contact": "read",
     "Surface": """heights z data values dx dy pixel_size x y nx ny Lx Ly extent physical_sizes nb_grid_pts mask name unit ndim std mean Sa
                   Sq rms_height detrend remove_form gaussian filter rotate T downsample tile copy hist profile section acf plot_3d show

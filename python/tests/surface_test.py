@@ -85,6 +85,7 @@ def test_the_unit_of_heights_scales_them():
 @pytest.mark.parametrize("z, error, text", [
     (np.zeros(5), ValueError, r"heights: got an array of 1 dimension, shape \(5,\); expected a map of shape \(ny, nx\)"),
     (np.zeros((2, 2, 2)), ValueError, "heights: got an array of 3 dimensions"),
+    ([[1.0, 2.0], [3.0]], TypeError, "heights: got list that is no array; expected real numbers in rows of one length"),
     (3.0, ValueError, "heights: got one number; expected a map"),
     (np.zeros((0, 4)), ValueError, r"heights: got an array of shape \(0, 4\), which is empty"),
     (np.full((4, 4), np.nan), tb.InputError, "heights: got no valid height at any pixel"),
