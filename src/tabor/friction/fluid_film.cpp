@@ -17,7 +17,8 @@ namespace {
 
 /// Deflection in the middle of a square pixel under a uniform pressure, over p a/E*: Love 1929.
 const double kPixelCompliance = 4 / std::numbers::pi * std::log(1 + std::sqrt(2.0));
-constexpr double kMuch = 0.05;             // a change of the gap, over its mean
+constexpr double kMuch = 0.05;  // a change of the gap, over its mean
+constexpr double kNear = 0.1;   // the largest error of a film from which the next one may start
 constexpr double kLargestFeltShare = 0.9;  // of the load
 constexpr double kLeastSolidShare = 1e-6;  // below it the surfaces are taken to just touch
 
@@ -130,7 +131,7 @@ class Solver {
   void flow(FluidFilmState& state) {
     ++state.convergence.iterations;
     // Elsewhere the oil starts from its deposit again: where it went before must not matter.
-    const bool has_guess = state.convergence.iterations > 1 && load_fits(state);
+    const bool has_guess = state.convergence.certificate < kNear;
     const reynolds::PatchProblem patch = patch_of(state);
     state.film = has_guess ? steady_film(patch, problem_.film, state.film, told_)
                            : steady_film(patch, problem_.film, told_);

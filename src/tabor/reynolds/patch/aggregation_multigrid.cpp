@@ -15,13 +15,6 @@ constexpr double kLeastShrinking = 0.8;  // coarsening that gains less than this
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-template <typename Visit>
-void for_neighbours(const CouplingMatrix& matrix, Index node, const Visit& visit) {
-  const auto begin = at(matrix.begin[at(node)]);
-  const auto end = at(matrix.begin[at(node) + 1]);
-  for (std::size_t k = begin; k < end; ++k) visit(matrix.neighbour[k], matrix.coupling[k]);
-}
-
 /// Groups of nodes, counted from zero in the order of their first nodes.
 struct Aggregates {
   std::vector<std::int32_t> of;
@@ -39,7 +32,7 @@ Aggregates pairs_of(const CouplingMatrix& matrix) {
     double strongest_free = 0;
     std::int32_t partner = -1;
     std::int32_t free_partner = -1;
-    for_neighbours(matrix, node, [&](std::int32_t other, double coupling) {
+    matrix.for_neighbours(node, [&](std::int32_t other, double coupling) {
       if (other == node) return;
       if (coupling > strongest) {
         strongest = coupling;
@@ -91,7 +84,7 @@ CouplingMatrix coarsened(const CouplingMatrix& fine, const Aggregates& groups) {
       const std::int32_t node = members[k];
       coarse.diagonal[group] += fine.diagonal[node];
       lost[group] += fine.diagonal[node];
-      for_neighbours(fine, node, [&](std::int32_t other, double coupling) {
+      fine.for_neighbours(node, [&](std::int32_t other, double coupling) {
         const std::int32_t to = groups.of[at(other)];
         if (to == group) {
           coarse.diagonal[group] -= coupling;
@@ -113,62 +106,11 @@ CouplingMatrix coarsened(const CouplingMatrix& fine, const Aggregates& groups) {
   return coarse;
 }
 
-/// Puts the neighbours that come before their node first, and returns where in each row the others
-/// begin.
-std::vector<std::int32_t> split_rows(CouplingMatrix& matrix) {
-  std::vector<std::int32_t> middle(at(matrix.size()));
-  std::vector<std::pair<std::int32_t, double>> row;
-  for (Index node = 0; node < matrix.size(); ++node) {
-    row.clear();
-    for_neighbours(matrix, node,
-                   [&](std::int32_t other, double coupling) { row.emplace_back(other, coupling); });
-    const auto split = std::stable_partition(row.begin(), row.end(),
-                                             [&](const auto& link) { return link.first < node; });
-    const std::int32_t begin = matrix.begin[at(node)];
-    middle[at(node)] = begin + static_cast<std::int32_t>(split - row.begin());
-    for (std::size_t i = 0; i < row.size(); ++i) {
-      matrix.neighbour[at(begin) + i] = row[i].first;
-      matrix.coupling[at(begin) + i] = row[i].second;
-    }
-  }
-  return middle;
-}
-
-/// A forward sweep that begins with x = 0 meets only the first parts of the rows, and what it
-/// leaves over, right - A x, is made by the second parts alone: together they read the matrix once.
-void smooth_from_zero(const CouplingMatrix& matrix, const std::vector<std::int32_t>& middle,
-                      const VectorXd& right, VectorXd& x, VectorXd& rest) {
-  x.resize(matrix.size());
-  for (Index node = 0; node < matrix.size(); ++node) {
-    double total = right[node];
-    for (auto k = at(matrix.begin[at(node)]); k < at(middle[at(node)]); ++k) {
-      total += matrix.coupling[k] * x[matrix.neighbour[k]];
-    }
-    x[node] = total / matrix.diagonal[node];
-  }
-  rest.resize(matrix.size());
-  for (Index node = 0; node < matrix.size(); ++node) {
-    double total = 0;
-    for (auto k = at(middle[at(node)]); k < at(matrix.begin[at(node) + 1]); ++k) {
-      total += matrix.coupling[k] * x[matrix.neighbour[k]];
-    }
-    rest[node] = total;
-  }
-}
-
-/// The x of one node that balances it.
-double relaxed(const CouplingMatrix& matrix, Index node, const VectorXd& right, const VectorXd& x) {
-  double total = right[node];
-  for_neighbours(matrix, node,
-                 [&](std::int32_t other, double coupling) { total += coupling * x[other]; });
-  return total / matrix.diagonal[node];
-}
-
 Eigen::SparseMatrix<double> sparse(const CouplingMatrix& matrix) {
   std::vector<Eigen::Triplet<double>> entries;
   for (Index node = 0; node < matrix.size(); ++node) {
     entries.emplace_back(node, node, matrix.diagonal[node]);
-    for_neighbours(matrix, node, [&](std::int32_t other, double coupling) {
+    matrix.for_neighbours(node, [&](std::int32_t other, double coupling) {
       entries.emplace_back(node, other, -coupling);
     });
   }
@@ -179,68 +121,48 @@ Eigen::SparseMatrix<double> sparse(const CouplingMatrix& matrix) {
 
 }  // namespace
 
-void CouplingMatrix::multiply(const VectorXd& x, VectorXd& y) const {
-  y.resize(size());
-  for (Index node = 0; node < size(); ++node) {
-    double total = diagonal[node] * x[node];
-    for_neighbours(*this, node,
-                   [&](std::int32_t other, double value) { total -= value * x[other]; });
-    y[node] = total;
-  }
-}
-
-void CouplingMatrix::relax_forward(const VectorXd& right, VectorXd& x) const {
-  for (Index node = 0; node < size(); ++node) x[node] = relaxed(*this, node, right, x);
-}
-
-void CouplingMatrix::relax_backward(const VectorXd& right, VectorXd& x) const {
-  for (Index node = size() - 1; node >= 0; --node) x[node] = relaxed(*this, node, right, x);
-}
-
 AggregationMultigrid::AggregationMultigrid(CouplingMatrix matrix) {
-  add_level(std::move(matrix));
-  while (levels_.back().matrix.size() > kCoarsestSize) {
-    const CouplingMatrix& fine = levels_.back().matrix;
-    const Aggregates first = pairs_of(fine);
-    const CouplingMatrix between = coarsened(fine, first);
+  while (matrix.size() > kCoarsestSize) {
+    const Aggregates first = pairs_of(matrix);
+    const CouplingMatrix between = coarsened(matrix, first);
     const Aggregates second = pairs_of(between);
-    if (static_cast<double>(second.count) > kLeastShrinking * static_cast<double>(fine.size())) {
+    if (static_cast<double>(second.count) > kLeastShrinking * static_cast<double>(matrix.size())) {
       break;
     }
     std::vector<std::int32_t> both(first.of.size());
     for (std::size_t i = 0; i < both.size(); ++i) both[i] = second.of[at(first.of[i])];
-    levels_.back().coarse = std::move(both);
-    add_level(coarsened(between, second));
+    CouplingMatrix coarse = coarsened(between, second);
+    add_level(std::exchange(matrix, std::move(coarse)), std::move(both));
   }
-  if (levels_.back().matrix.size() > 0) coarsest_.compute(sparse(levels_.back().matrix));
+  if (matrix.size() > 0) coarsest_.compute(sparse(matrix));
+  add_level(std::move(matrix), {});
 }
 
-void AggregationMultigrid::add_level(CouplingMatrix matrix) {
-  std::vector<std::int32_t> middle = split_rows(matrix);
-  levels_.push_back({std::move(matrix), std::move(middle), {}, {}, {}, {}, {}});
+void AggregationMultigrid::add_level(CouplingMatrix matrix, std::vector<std::int32_t> coarse) {
+  levels_.push_back({BlockSweeps(std::move(matrix)), std::move(coarse), {}, {}, {}, {}});
 }
 
 void AggregationMultigrid::cycle(std::size_t number, const VectorXd& r, VectorXd& z) {
   Level& level = levels_[number];
-  const Index n = level.matrix.size();
+  const Index n = level.system.size();
   if (n == 0) return;
   if (level.coarse.empty()) {
     z = coarsest_.solve(r);
     return;
   }
   Level& next = levels_[number + 1];
-  smooth_from_zero(level.matrix, level.middle, r, z, level.rest);
-  next.right.setZero(next.matrix.size());
+  level.system.smooth_from_zero(r, z, level.rest);
+  next.right.setZero(next.system.size());
   for (Index i = 0; i < n; ++i) next.right[level.coarse[at(i)]] += level.rest[i];
   cycle(number + 1, next.right, next.solution);
   if (!next.coarse.empty()) {
-    next.matrix.multiply(next.solution, next.rest);
+    next.system.multiply(next.solution, next.rest);
     next.right -= next.rest;
     cycle(number + 1, next.right, next.second_solution);
     next.solution += next.second_solution;
   }
   for (Index i = 0; i < n; ++i) z[i] += next.solution[level.coarse[at(i)]];
-  level.matrix.relax_backward(r, z);
+  level.system.relax_backward(r, z);
 }
 
 void AggregationMultigrid::apply(const VectorXd& r, VectorXd& z) { cycle(0, r, z); }

@@ -88,15 +88,23 @@ class Rows {
   CouplingMatrix matrix_;
 };
 
+/// The x of one node that balances it.
+double relaxed(const CouplingMatrix& matrix, Index node, double right, const VectorXd& x) {
+  double total = right;
+  matrix.for_neighbours(node,
+                        [&](std::int32_t other, double coupling) { total += coupling * x[other]; });
+  return total / matrix.diagonal[node];
+}
+
 /// Brings the units nearer to the pressures that an even inflow would raise. They stay positive, as
 /// all couplings are.
 void improve(const CouplingMatrix& matrix, VectorXd& unit) {
   if (matrix.size() == 0) return;
   const double inflow = kInflow * matrix.diagonal.mean();
-  const VectorXd even = VectorXd::Constant(matrix.size(), inflow);
+  const Index n = matrix.size();
   for (int sweep = 0; sweep < kUnitSweeps; ++sweep) {
-    matrix.relax_forward(even, unit);
-    matrix.relax_backward(even, unit);
+    for (Index node = 0; node < n; ++node) unit[node] = relaxed(matrix, node, inflow, unit);
+    for (Index node = n; node-- > 0;) unit[node] = relaxed(matrix, node, inflow, unit);
   }
 }
 
@@ -130,7 +138,7 @@ CouplingMatrix FullCells::matrix_of(const PatchCells& cells, const std::vector<C
 
 void FullCells::apply(const VectorXd& x, VectorXd& y) {
   ++n_products_;
-  multigrid_.matrix().multiply(x, y);
+  multigrid_.system().multiply(x, y);
 }
 
 bool FullCells::solve(const VectorXd& right, double tolerance, int max_products, VectorXd& x,

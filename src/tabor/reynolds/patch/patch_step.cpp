@@ -18,8 +18,9 @@ constexpr int kMaxProducts = 400;
 constexpr double kRoughTolerance = 1e-4;  // of the flows, while many cells still change sides
 constexpr double kFairTolerance = 1e-6;   // while few do
 constexpr double kTolerance = 1e-11;
-constexpr double kCloser = 0.01;    // where no fewer cells change sides than before
-constexpr double kOverfill = 1e-6;  // a fill above 1 by less is what the solver leaves
+constexpr double kReduction = 3e-3;  // of what the changed cells leave, while any still change
+constexpr double kCloser = 0.01;     // where no fewer cells change sides than before
+constexpr double kOverfill = 1e-6;   // a fill above 1 by less is what the solver leaves
 // Sets of cells fit if at most one cell in so many still changes sides, which the pressure does not
 // feel by more than this.
 constexpr Index kFewChanges = 20000;
@@ -49,26 +50,28 @@ class Step {
     PatchFilm film;
     double tolerance = kRoughTolerance;
     Index last_changes = cells_.size();
+    bool quiet = false;
     bool settled = false;
     bool balanced = false;
     film.convergence.tolerance = kTolerance;
     while (!settled && film.convergence.iterations < kMaxIterations) {
       ++film.convergence.iterations;
-      balanced = solve_pressures(tolerance, film.convergence);
+      const bool is_last = quiet;
+      balanced = solve_pressures(tolerance, is_last ? 0 : kReduction, film.convergence);
       const double before = film.mean_pressure;
       film.mean_pressure =
           sum(balance_.pressures()) / static_cast<double>(balance_.pressures().size());
       const Index changes = change_sides();
       const bool same = std::abs(film.mean_pressure - before) <= kSamePressure * film.mean_pressure;
-      const bool quiet = changes == 0 || (same && changes <= cells_.size() / kFewChanges);
-      settled = quiet && tolerance == kTolerance;
-      if (settled && changes > 0) balanced = solve_pressures(kTolerance, film.convergence);
+      quiet = changes == 0 || (same && changes <= cells_.size() / kFewChanges);
+      settled = is_last && quiet;
+      if (settled && changes > 0) balanced = solve_pressures(kTolerance, 0, film.convergence);
       if (changes <= cells_.size() / 10000) tolerance = std::min(tolerance, kFairTolerance);
       if (changes >= last_changes) tolerance *= kCloser;
       tolerance = quiet ? kTolerance : std::max(tolerance, kTolerance);
       last_changes = changes;
     }
-    if (!settled) balanced = solve_pressures(kTolerance, film.convergence);
+    if (!settled) balanced = solve_pressures(kTolerance, 0, film.convergence);
     film.convergence.status = !balanced ? Status::stalled
                               : settled ? Status::converged
                                         : Status::iteration_limit;
@@ -148,16 +151,20 @@ class Step {
     return std::sqrt(scale);
   }
 
-  bool solve_pressures(double tolerance, Convergence& convergence) {
+  /// Until the residual is below `tolerance` of the flows or `reduction` of what it was. True where
+  /// it is.
+  bool solve_pressures(double tolerance, double reduction, Convergence& convergence) {
     FullCells system(cells_, balance_.kinds(), time_, unit_);
     VectorXd r;
     VectorXd step;
     double rounding = 0;
+    double left = 0;
     bool solved = false;
     for (int round = 0; round < 8 && !solved; ++round) {
       balance_.sweep();
       const double flows = residual(system, r, rounding);
-      const double goal = tolerance * flows + 16 * rounding;
+      if (round == 0) left = reduction * r.norm();
+      const double goal = std::max(tolerance * flows, left) + 16 * rounding;
       convergence.certificate = flows > 0 ? r.norm() / flows : 0;
       solved = r.norm() <= goal;
       if (solved) break;
