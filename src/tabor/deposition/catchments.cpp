@@ -1,5 +1,6 @@
 #include "tabor/deposition/catchments.hpp"
 
+#include "tabor/core/rows.hpp"
 #include "tabor/core/watch.hpp"
 
 namespace tabor::deposition {
@@ -33,22 +34,25 @@ Pixel Catchments::downhill(Pixel p) const {
   return lowest;
 }
 
+/// First one step for each pixel, stored as the complement of the next one, then all steps.
 void Catchments::drain_all() {
-  std::vector<Pixel> path;
-  for (Pixel start = 0; start < pools_.terrain().size(); ++start) {
-    go_on_or_throw(static_cast<std::size_t>(start));
-    PoolId leaf = kNoPool;
-    for (Pixel p = start; leaf == kNoPool;) {
-      leaf = drains_to_[static_cast<std::size_t>(p)];
-      if (leaf == kNoPool) {
-        path.push_back(p);
-        const Pixel next = downhill(p);
-        leaf = next == kOutside ? kOcean : next == p ? pools_.pool_at(p) : kNoPool;
-        p = next;
-      }
+  const Terrain& terrain = pools_.terrain();
+  const auto drains_to = [this](Pixel p) -> PoolId& {
+    return drains_to_[static_cast<std::size_t>(p)];
+  };
+  for_each_row(terrain.ny, [&](Index row) {
+    for (auto p = static_cast<Pixel>(row * terrain.nx), end = p + terrain.nx; p < end; ++p) {
+      const Pixel next = downhill(p);
+      drains_to(p) = next == kOutside ? kOcean : next == p ? pools_.pool_at(p) : ~next;
     }
-    for (const Pixel p : path) drains_to_[static_cast<std::size_t>(p)] = leaf;
+  });
+  std::vector<Pixel> path;
+  for (Pixel start = 0; start < terrain.size(); ++start) {
+    go_on_or_throw(static_cast<std::size_t>(start));
     path.clear();
+    Pixel p = start;
+    for (; drains_to(p) < 0; p = ~drains_to(p)) path.push_back(p);
+    for (const Pixel passed : path) drains_to(passed) = drains_to(p);
   }
 }
 

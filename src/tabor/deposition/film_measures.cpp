@@ -1,7 +1,9 @@
 #include "tabor/deposition/film_measures.hpp"
 
 #include <algorithm>
+#include <vector>
 
+#include "tabor/core/rows.hpp"
 #include "tabor/core/watch.hpp"
 #include "tabor/numerics/disjoint_sets.hpp"
 #include "tabor/numerics/runs.hpp"
@@ -9,13 +11,18 @@
 namespace tabor::deposition {
 Field thickness_in(Pools& pools, double flood) {
   const Terrain& terrain = pools.terrain();
-  Field thickness(terrain.ny, terrain.nx);
-  for (Pixel p = 0; p < terrain.size(); ++p) {
-    go_on_or_throw(static_cast<std::size_t>(p));
-    const Volume level = pools[pools.owner(pools.pool_at(p))].level;
-    const auto depth = static_cast<double>(std::max<Volume>(0, level - pools.height(p)));
-    thickness.data()[p] = (depth + flood) * terrain.quantum;
+  std::vector<Height> level(pools.count());
+  for (std::size_t id = 0; id < level.size(); ++id) {
+    level[id] = pools[pools.owner(static_cast<PoolId>(id))].level;
   }
+  Field thickness(terrain.ny, terrain.nx);
+  for_each_row(terrain.ny, [&](Index row) {
+    for (auto p = static_cast<Pixel>(row * terrain.nx), end = p + terrain.nx; p < end; ++p) {
+      const Volume over_pixel = level[static_cast<std::size_t>(pools.pool_at(p))];
+      const auto depth = static_cast<double>(std::max<Volume>(0, over_pixel - pools.height(p)));
+      thickness.data()[p] = (depth + flood) * terrain.quantum;
+    }
+  });
   return thickness;
 }
 

@@ -15,7 +15,6 @@ namespace tabor::deposition {
 namespace {
 
 // Pixels in order of height lie anywhere: how many ahead of its turn one is asked of the memory.
-constexpr std::size_t kNear = 16;
 constexpr std::size_t kFar = 24;
 
 constexpr std::size_t kDigits = 2048;    // of a pass of the radix sort
@@ -122,7 +121,11 @@ void PoolBuilder::build() {
   std::vector<Pixel> ascending = ascending_pixels(terrain);
   reserve_large_pages(to_.sites_, ascending.size());
   to_.sites_.resize(ascending.size());
-  for (std::size_t p = 0; p < ascending.size(); ++p) to_.sites_[p].height = terrain.height[p];
+  parallel_for(terrain.size(), kBlock, [&](Index begin, Index end) {
+    for (auto p = static_cast<std::size_t>(begin); p < static_cast<std::size_t>(end); ++p) {
+      to_.sites_[p].height = terrain.height[p];
+    }
+  });
   const std::size_t n_most = 2 * count_minima(terrain) + 1;  // a merger unites two at least
   reserve_large_pages(to_.pools_, n_most);
   reserve_large_pages(to_.growth_, n_most);
@@ -144,11 +147,12 @@ void PoolBuilder::build() {
   }
   to_.last_ = grown(pool_at(0));
   release(into_);
+  release(ascending);
   forget_absorbed();
   go_on_or_throw();
   number_by_place();
   go_on_or_throw();
-  make_arcs(ascending);
+  make_arcs();
   go_on_or_throw();
   start_leaves();
 }
@@ -167,12 +171,6 @@ PoolId PoolBuilder::new_pool(Height base) {
   to_.growth_.emplace_back();
   is_absorbed_.push_back(false);
   return id;
-}
-
-void PoolBuilder::prefetch_site(const std::vector<Pixel>& ascending, std::size_t place) const {
-  if (place < ascending.size()) {
-    __builtin_prefetch(&to_.sites_[static_cast<std::size_t>(ascending[place])]);
-  }
 }
 
 /// The rows above and below; the neighbours in the row most likely come with the pixel itself.
@@ -267,7 +265,7 @@ void PoolBuilder::number_by_place() {
   }
 }
 
-void PoolBuilder::make_arcs(const std::vector<Pixel>& ascending) {
+void PoolBuilder::make_arcs() {
   check_places(to_.sites_.size() + to_.pools_.size());
   for (const auto& site : to_.sites_) ++growth(site.pool).next;
   std::int32_t begin = 0;
@@ -280,7 +278,7 @@ void PoolBuilder::make_arcs(const std::vector<Pixel>& ascending) {
   reserve_large_pages(to_.arcs_, n_places);
   to_.arcs_.resize(n_places);
   to_.is_rim_.resize(n_places);
-  fill_arcs(ascending);
+  fill_arcs();
   begin = 0;
   for (std::size_t id = 0; id < to_.pools_.size(); ++id) {
     Growth& each = to_.growth_[id];
@@ -290,16 +288,15 @@ void PoolBuilder::make_arcs(const std::vector<Pixel>& ascending) {
     to_.is_rim_[rim] = true;
     each.next = std::exchange(begin, each.next + 1);
   }
+  sort_arcs();
 }
 
-/// Puts all heights in their places and finds the lowest pixels of all pools but leaves; with
-/// ordered ties that is always one.
-void PoolBuilder::fill_arcs(const std::vector<Pixel>& ascending) {
+/// Puts all heights into the arcs of their pools and finds the lowest pixels of all pools but
+/// leaves; with ordered ties that is always one.
+void PoolBuilder::fill_arcs() {
   std::unordered_map<PoolId, std::vector<Pixel>> several;
-  for (std::size_t i = 0; i < ascending.size(); ++i) {
-    go_on_or_throw(i);
-    prefetch_site(ascending, i + kNear);
-    const Pixel p = ascending[i];
+  for (Pixel p = 0; p < to_.terrain().size(); ++p) {
+    go_on_or_throw(static_cast<std::size_t>(p));
     const auto& site = to_.sites_[static_cast<std::size_t>(p)];
     Growth& at = growth(site.pool);
     to_.arcs_[static_cast<std::size_t>(at.next++)] = site.height;
@@ -317,6 +314,17 @@ void PoolBuilder::fill_arcs(const std::vector<Pixel>& ascending) {
     to_.saddles_.push_back(first);
     to_.saddles_.insert(to_.saddles_.end(), more.begin(), more.end());
   }
+}
+
+void PoolBuilder::sort_arcs() {
+  const auto n = static_cast<Index>(to_.pools_.size());
+  parallel_for(n, kBlock, [&](Index begin, Index end) {
+    for (Index id = begin; id < end; ++id) {
+      const auto place = [&](Index of) { return growth(static_cast<PoolId>(of)).next; };
+      const auto arc_end = id + 1 < n ? place(id + 1) : static_cast<std::int32_t>(to_.arcs_.size());
+      std::sort(to_.arcs_.begin() + place(id), to_.arcs_.begin() + arc_end - 1);
+    }
+  });
 }
 
 /// Leaves hold liquid from the start; all other pools wait for their children. A leaf without
