@@ -280,13 +280,14 @@ class Size(unittest.TestCase):
         noise = rng.standard_normal((900, 900)).astype(np.float32) * np.float32(1e-6)
         film = np.maximum(noise, 0)
         touching = noise > 2.5e-6
-        contact = lambda: {"contact": lambda: (touching.astype(np.uint8), 240e6 * touching), "gap": lambda: noise}
+        contact = lambda: {"contact": lambda step: (touching.astype(np.uint8), 240e6 * touching[::step, ::step]), "gap": lambda: noise}
         maps = viewer.Maps(
             "maps",
             "noise",
             "noise",
             (1e-6, 1e-6),
-            noise,
+            noise.shape,
+            lambda: noise,
             [viewer.Choice(f"{number} MPa", contact()) for number in range(12)],
             [viewer.Choice("0.9 g/m²", {"film": lambda: film})],
         )

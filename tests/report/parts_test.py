@@ -12,9 +12,10 @@ import zlib
 from pathlib import Path
 from unittest import mock
 
+import h5py
 import numpy as np
 
-from tabor.report import cli, dependencies, encoding, errors, live_page, maps, names, output, page, section, still, style, units
+from tabor.report import cli, dependencies, encoding, errors, hdf, live_page, maps, names, output, page, section, still, style, units
 from tabor.report.example import richest_window
 from tabor.report.figures import Drawn, psd
 from tabor.report.map_axes import round_length
@@ -244,6 +245,35 @@ class Grid(unittest.TestCase):
         steps = {(1024, 1024): 1, (1, 1025): 2, (2048, 3): 2, (2049, 3): 3, (3456, 3456): 4}
         self.assertEqual({shape: encoding.thinning(shape, encoding.LARGEST_GRID) for shape in steps}, steps)
         self.assertEqual([units.nth(step) for step in (2, 3, 4, 11, 12, 21, 112)], ["2nd", "3rd", "4th", "11th", "12th", "21st", "112th"])
+
+    def test_a_large_map_is_packed_piece_by_piece(self):
+        rng = np.random.default_rng(6)
+        shape = 3 * encoding.ROWS_AT_ONCE + 5, 7
+        under = rng.integers(0, 9, shape)
+        for is_level in (False, True):
+            codes = rng.integers(0, 9, shape)
+            np.testing.assert_array_equal(unpacked(encoding.packed(codes, under, is_level), shape, under), codes)
+        values = np.where(rng.random(shape) < 0.1, np.nan, rng.standard_normal(shape))
+        codes, hole = encoding.codes_of(values, -3)
+        np.testing.assert_array_equal(codes, np.where(np.isfinite(values), np.rint(1e3 * np.nan_to_num(values)), hole))
+
+    def test_bits_are_the_pixels_that_were_marked(self):
+        rng = np.random.default_rng(7)
+        maps = [rng.integers(0, 3, (2 * encoding.ROWS_AT_ONCE + 3, 21)) * (rng.random(21) < 0.3) for _ in range(2)]
+        bits = encoding.Bits(maps[0])
+        np.testing.assert_array_equal(bits.mask(), maps[0] > 0)
+        bits.add(maps[1])
+        np.testing.assert_array_equal(bits.mask(), (maps[0] > 0) | (maps[1] > 0))
+        self.assertTrue(bits.any)
+        self.assertFalse(encoding.Bits(np.zeros((3, 3))).any)
+
+    def test_every_nth_pixel_is_read_whatever_the_chunks(self):
+        values = np.arange(200 * 90, dtype=np.float32).reshape(200, 90)
+        with h5py.File("thinned.h5", "w", driver="core", backing_store=False) as file:
+            for number, chunks in enumerate((None, (64, 32), (7, 90), (200, 90))):
+                dataset = file.create_dataset(str(number), data=values, chunks=chunks)
+                for step in (1, 2, 3, 5, 64, 300):
+                    np.testing.assert_array_equal(hdf.thinned(dataset, step), values[::step, ::step])
 
     def test_ticks_of_an_axis_are_round_and_within_it(self):
         for length in (0.9, 1.0, 7.3, 343.04, 9999.0):

@@ -8,7 +8,9 @@ if not __package__:  # this Python may lack the compiled module that `import tab
     bare = sys.modules["tabor"] = types.ModuleType("tabor")
     bare.__path__ = [str(Path(__file__).resolve().parents[1])]
 
+from tabor.report import memory
 from tabor.report.cli import main
 
+memory.give_large_blocks_back()
 sys.stdout.reconfigure(errors="surrogateescape")  # names of files are bytes
 sys.exit(main(sys.argv[1:]))

@@ -23,23 +23,53 @@ ELASTIC_COLOURS = ((240, 176, 116), (90, 90, 90))  # the two colours under that 
 CLASS_COLOURS = ((255, 255, 255), ELASTIC_COLOURS[0], WET_COLOURS[0], ELASTIC_COLOURS[1], WET_COLOURS[1])
 
 
+class Bits:
+    """Marked pixels of a large map, in an eighth of the memory of a mask."""
+
+    def __init__(self, values):
+        """Marks where values are above zero."""
+        self._shape = values.shape
+        self._rows = np.zeros((values.shape[0], -(-values.shape[1] // 8)), dtype=np.uint8)
+        self.add(values)
+
+    def add(self, values):
+        """Marks also where these are."""
+        for rows in _pieces(values):
+            self._rows[rows] |= np.packbits(values[rows] > 0, axis=1)
+
+    @property
+    def any(self):
+        return bool(self._rows.any())
+
+    def mask(self):
+        return np.unpackbits(self._rows, axis=1, count=self._shape[1]).view(bool)
+
+
+def _pieces(values):
+    """Slices of a few rows each, of which the temporary arrays are small."""
+    return [slice(start, start + ROWS_AT_ONCE) for start in range(0, len(values), ROWS_AT_ONCE)]
+
+
 def thinning(shape, largest=LARGEST_SIDE):
     """Every how many pixels of a map are kept, so that no side has more than `largest`."""
     return max(1, math.ceil(max(shape) / largest))
 
 
-def coloured(values, limits, colours, ground, quality, offset=0.0):
-    """A data: URI of a WebP picture of a map; values that are NaN have the colour `ground`.
+def steps_of(values, limits, offset=0.0):
+    """uint8 of a map that is thinned: which of 255 colours each value has, from 1; 0 where it is NaN.
 
-    values: (ny, nx); limits: the values, less the offset, of the first and last of the 255 colours; colours: uint8 (256, 3),
-    of which the first is not used.
+    values: (ny, nx); limits: the values, less the offset, of the first and last colour.
     """
     step = thinning(values.shape)
-    thinned = values[::step, ::step]
-    steps = np.empty(thinned.shape, dtype=np.uint8)
-    for start in range(0, len(steps), ROWS_AT_ONCE):
-        rows = (thinned[start : start + ROWS_AT_ONCE] - np.float32(offset)).astype(np.float32, copy=False)
-        steps[start : start + ROWS_AT_ONCE] = _steps(rows, *limits)
+    values = values[::step, ::step]
+    steps = np.empty(values.shape, dtype=np.uint8)
+    for rows in _pieces(steps):
+        steps[rows] = _steps((values[rows] - np.float32(offset)).astype(np.float32, copy=False), *limits)
+    return steps
+
+
+def coloured(steps, colours, ground, quality):
+    """A data: URI of a WebP picture of steps_of(); colours: uint8 (256, 3), in place of the first of which is `ground`."""
     table = np.array(colours, dtype=np.uint8)
     table[0] = ground
     picture = Image.fromarray(steps, "P")
@@ -82,14 +112,15 @@ def power_of(usual, span=0.0):
 
 def codes_of(values, power):
     """(int64 (ny, nx): values rounded to whole steps 10^power, the code of holes or None)."""
-    known = np.isfinite(values)
-    values = np.asarray(values, dtype=float)
-    steps = values * 10.0**-power if power <= 0 else values / 10.0**power
+    known, codes = np.isfinite(values), np.empty(values.shape, dtype=np.int64)
+    for rows in _pieces(values):
+        part = np.where(known[rows], values[rows], 0).astype(float, copy=False)
+        codes[rows] = np.rint(part * 10.0**-power if power <= 0 else part / 10.0**power)
     if known.all():
-        return np.rint(steps).astype(np.int64), None
-    codes = np.rint(np.where(known, steps, 0)).astype(np.int64)
+        return codes, None
     hole = int(codes[known].min() if known.any() else 0) - 1
-    return np.where(known, codes, hole), hole
+    codes[~known] = hole
+    return codes, hole
 
 
 def packed(codes, height=None, is_level=False):
@@ -99,8 +130,12 @@ def packed(codes, height=None, is_level=False):
     neighbours, of a film with the level beside or above. What is lacking is folded to 0, -1, 1, -2 ..., and its bytes are stored low ones first,
     a plane each.
     """
-    lacking = codes - (_level(codes, height) if is_level else _plane(codes, height))
-    folded = ((lacking << 1) ^ (lacking >> 63)).astype(np.uint32)
+    folded = np.empty(codes.shape, dtype=np.uint32)
+    for rows in _pieces(codes):
+        above = slice(max(0, rows.start - 1), rows.stop)  # a guess needs the row before
+        around = codes[above].astype(np.int64, copy=False)
+        lacking = around - (_level(around, height[above]) if is_level else _plane(around, None if height is None else height[above]))
+        folded[rows] = ((lacking << 1) ^ (lacking >> 63))[rows.start - above.start :]
     planes = max(1, (int(folded.max(initial=0)).bit_length() + 7) // 8)
     # Runs and frequencies are all there is to find; longer matches cost time and bring nothing.
     packer = zlib.compressobj(1, zlib.DEFLATED, 15, 9, zlib.Z_RLE)

@@ -13,6 +13,9 @@ import numpy as np
 from tabor.report import guard
 from tabor.report.errors import InputError, readable
 
+CHUNK_CACHE = 1 << 20  # bytes of each map that is read: whole chunks are read once
+ROWS_AT_ONCE = 64  # at least, of a map that is read piece by piece
+
 
 def file_of(result):
     """The path of a result's file; that of a study may be given by its folder."""
@@ -37,7 +40,7 @@ def open_file(path):
     if not _begins_as_hdf5(path):
         raise _no_result(path)
     try:
-        file = h5py.File(path, "r")
+        file = h5py.File(path, "r", rdcc_nbytes=CHUNK_CACHE)
     except OSError as error:
         reason = str(error).splitlines()[0]
         raise InputError(f"{path}: cannot be read as HDF5 ({reason})") from None
@@ -128,3 +131,22 @@ def _column(dataset):
     if values.dtype.kind in "OSU":
         return np.array([text(value) for value in values], dtype=object)
     return values
+
+
+def thinned(dataset, step):
+    """Every step-th row and column of a map; of a large one the rest is never in memory at once."""
+    if step == 1:
+        return dataset[()]
+    found = np.empty([-(-length // step) for length in dataset.shape], dtype=dataset.dtype)
+    at_once = _rows_at_once(dataset)
+    for start in range(0, len(dataset), at_once):
+        rows = dataset[start : start + at_once][-start % step :: step, ::step]
+        first = -(-start // step)
+        found[first : first + len(rows)] = rows
+    return found
+
+
+def _rows_at_once(dataset):
+    """Whole chunks of the file: each is unpacked once."""
+    rows = dataset.chunks[0] if dataset.chunks else 1
+    return rows * -(-ROWS_AT_ONCE // rows)

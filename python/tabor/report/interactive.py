@@ -11,7 +11,7 @@ NOT_ON_PAPER = "@media print { :host { display: none !important; } }"  # the pag
 
 
 def is_asked_for(options):
-    """Whether the page is interactive, as far as this Python can make it so."""
+    """True for a page that is to be interactive, if this Python can make it so."""
     return options.html and not options.static and is_possible()
 
 

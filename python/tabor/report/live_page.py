@@ -76,7 +76,7 @@ class Live:
             "saturates": data["saturates"],
             "classes": _classes(data),
             "nth": units.nth(data["step"]) if data["step"] > 1 else "",
-            "thinned": thinning if (thinning := encoding.thinning(maps.height.shape)) > 1 else 0,
+            "thinned": thinning if (thinning := encoding.thinning(maps.shape)) > 1 else 0,
             "axes": _axes(maps),
             "pictures": pictures,
             "data": interactive.script_json(data),
@@ -109,7 +109,7 @@ def _classes(data):
 
 def _axes(maps):
     """Of a still map: {"x" and "y": [(text, share of the side)], "unit", "shape": width over height}."""
-    sides = [count * pixel for count, pixel in zip(reversed(maps.height.shape), maps.pixel)]
+    sides = [count * pixel for count, pixel in zip(reversed(maps.shape), maps.pixel)]
     factor, unit = units.length_scale(max(sides))
     return {**{axis: _ticks(side * factor) for axis, side in zip("xy", sides)}, "unit": unit, "shape": sides[0] / sides[1]}
 

@@ -119,13 +119,15 @@ class SingleState:
         """uint8, shape (ny, nx): 0 none, 1 elastic, 2 saturated; None without pressures."""
         return self.contact()[0]
 
-    def contact(self):
-        """(state, pressure as stored [Pa]), both None without pressures; nothing saturates without a saturation pressure."""
-        pressure = self.raw("pressure")
-        if pressure is None:
+    def contact(self, step=1):
+        """(state, every step-th pressure as stored [Pa]), both None without pressures; nothing saturates without a saturation pressure."""
+        dataset, stored = hdf.child(self.node, "pressure"), self.raw("state")
+        if dataset is None:
             return None, None
-        stored = self.raw("state")
-        return (self._state_of(pressure) if stored is None else stored), pressure
+        if stored is not None:
+            return stored, hdf.thinned(dataset, step)
+        pressure = dataset[()]
+        return self._state_of(pressure), pressure[::step, ::step].copy()
 
     def _state_of(self, pressure):
         """For files that do not hold it."""

@@ -41,7 +41,15 @@ def _parts(height):
 
 def sorted_heights(height, mean=True):
     """Valid heights [m] about their mean, or as they are, from high to low."""
+    z = _evenly_spread(height)
+    level = z.astype(float).mean() if mean and z.size else 0.0
+    z.sort()  # before they are double: half as large
+    z = z.astype(float)
+    z -= level
+    return z[::-1]
+
+
+def _evenly_spread(height):
     known = np.isfinite(height)
     z = height.ravel() if known.all() else height[known]
-    z = (z[:: 1 + (z.size - 1) // MOST] if z.size else z).astype(float)
-    return np.sort(z - (z.mean() if mean and z.size else 0.0))[::-1]
+    return z[:: 1 + (z.size - 1) // MOST].copy() if z.size else z

@@ -1,6 +1,8 @@
 """What the interactive maps of a page hold: height, every contact and film of a scan, and gaps as far as they fit."""
 
 import math
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -26,7 +28,10 @@ GROUNDS = {"height": HOLE, "pressure": (255, 255, 255), "gap": HOLE, "film": DRY
 
 @dataclass
 class Choice:
-    """One contact (`contact`: (state, pressure or None), and `gap`) or one film: `load` reads its maps, by name."""
+    """One contact or one film: `load` reads its maps, by name.
+
+    "contact": of a step, (state, every step-th pressure or None); "gap" and "film".
+    """
 
     label: str
     load: dict
@@ -40,7 +45,8 @@ class Maps:
     title: str
     file: str  # in names of files
     pixel: tuple
-    height: np.ndarray
+    shape: tuple
+    load_height: Callable
     contacts: list = field(default_factory=list)
     films: list = field(default_factory=list)
     first: tuple = (0, 0)  # contact and film shown at first
@@ -60,10 +66,10 @@ def of_single(single):
             films[state.density_label] = Choice(
                 state.density_label, {"film": lambda state=state: state.raw("film_thickness")}
             )
-    height = single.raw_height()
     chosen = 0 if single.kind == "slide" else len(contacts) // 2, 0
     file = names.in_a_file(single.title if single.combination else names.short([single.title])[single.title])
-    maps = Maps("maps", single.title, file, single.pixel, height, [*contacts.values()], [*films.values()], chosen)
+    shape = single.surface["height"].shape
+    maps = Maps("maps", single.title, file, single.pixel, shape, single.raw_height, [*contacts.values()], [*films.values()], chosen)
     maps.is_difference, maps.heading = single.is_difference, single.heading_of_heights
     if single.kind != "slide" and oil.carries([state.facts for state in single.states]):
         maps.of_contact = oil.BEFORE
@@ -83,9 +89,10 @@ def of_example(example, rows, name="maps"):
         scan.name,
         names.in_a_file(scan.name),
         scan.pixel,
-        example.height,
+        example.height.shape,
+        lambda: example.height,
         [
-            Choice(f"P = {units.pressure(item.pressure)}", {"contact": (lambda item=item: (item.state(), None)), "gap": item.gap})
+            Choice(f"P = {units.pressure(item.pressure)}", {"contact": (lambda step, item=item: (item.state(), None)), "gap": item.gap})
             for item in contacts
         ],
         [Choice(units.density(item.density), {"film": item.thickness}) for item in films],
@@ -99,9 +106,19 @@ def of_example(example, rows, name="maps"):
 class _FilmMap:
     """What a page has of a film, of which the rest of a large map is given back."""
 
-    wet: np.ndarray  # of every pixel
+    wet: encoding.Bits  # of every pixel
     thickness: np.ndarray  # on the grid [m]
     top: float  # the end of its colours [m]
+
+
+@dataclass
+class _GapMap:
+    """What a page has of a gap."""
+
+    place: int  # of its contact
+    limits: tuple  # of its colours [m]
+    array: dict  # on the grid
+    steps: np.ndarray  # in which the picture of every pixel is coloured; None without one
 
 
 def encoded(maps, share=1.0, budget=None):
@@ -115,27 +132,30 @@ def encoded(maps, share=1.0, budget=None):
 class _Encoder:
     """One grid of numbers, from which a page draws, reads and saves; where it has not every pixel, pictures that have.
 
-    First what must be there, then the quality of pictures, then as many gaps as fit.
+    First what must be there, then the quality of pictures, then as many gaps as fit. A large map is read once, and is not held while
+    others are read. Large pictures are packed by another thread meanwhile.
     """
 
     def __init__(self, maps, share, budget):
         self.maps, self.left = maps, budget
         self.pictures, self.tried = {}, {}
-        self.last = -1, None
+        self.last = None
         self.with_gap = [place for place, choice in enumerate(maps.contacts) if "gap" in choice.load]
-        self.step = encoding.thinning(maps.height.shape, max(SMALLEST_GRID, int(encoding.LARGEST_GRID * math.sqrt(share))))
+        self.step = encoding.thinning(maps.shape, max(SMALLEST_GRID, int(encoding.LARGEST_GRID * math.sqrt(share))))
 
     def run(self):
-        height = self.maps.height
-        has_mean = np.isfinite(height).any() and not self.maps.is_difference
-        self.mean = float(np.nanmean(height, dtype=float)) if has_mean else 0.0
+        with ThreadPoolExecutor(1) as self.beside:
+            return self._run()
+
+    def _run(self):
         self.films = [self._film_map(np.asarray(choice.load["film"]())) for choice in self.maps.films]
-        self._choose_steps()
+        self._read_height()
+        self._try_pictures()
         contacts, line = self._contacts()
         films = [self._film(place) for place in range(len(self.films))]
         height_part = self._height()
         self._paint(height_part, films)
-        rows, columns = height.shape
+        rows, columns = self.maps.shape
         return {
             "name": self.maps.name,
             "file": self.maps.file,
@@ -144,7 +164,7 @@ class _Encoder:
             "size": [columns, rows],
             "pixel": list(self.maps.pixel),
             "step": self.step,
-            "grid": list(self._on_grid(height).shape[::-1]),
+            "grid": list(self.codes.shape[::-1]),
             "saturates": self.saturates,
             "classes": [_hex(colour) for colour in encoding.CLASS_COLOURS],
             "colours": {panel: _panel_colours(panel) for panel in COLOURS},
@@ -157,7 +177,7 @@ class _Encoder:
         }, self.pictures
 
     def _film_map(self, film):
-        return _FilmMap(film > 0, self._on_grid(film).copy(), self._limits(film[film > 0])[1])
+        return _FilmMap(encoding.Bits(film), self._on_grid(film).copy(), self._limits(film[film > 0])[1])
 
     def _on_grid(self, values):
         return values[:: self.step, :: self.step]
@@ -166,48 +186,62 @@ class _Encoder:
     def _is_thinned(self):
         return self.step > 1
 
-    def _choose_steps(self):
+    def _read_height(self):
+        height = self.maps.load_height()
+        has_mean = np.isfinite(height).any() and not self.maps.is_difference
+        self.mean = float(np.nanmean(height, dtype=float)) if has_mean else 0.0
+        self._choose_steps(self._on_grid(height))
+        self.height_steps = encoding.steps_of(height, self.height_limits, self.mean) if self._is_thinned else None
+
+    def _choose_steps(self, sample):
         """One decimal step for heights, gaps and films, which stand on another: fine enough for each; self.codes are those of the heights."""
-        sample = self._on_grid(self.maps.height)
         heights = np.asarray(sample, dtype=float) - self.mean
         self.height_limits = self._limits(heights)
         usual = [self.height_limits[1] - self.height_limits[0]]
-        usual += [10 * film.top for film in self.films if film.top > 0 and film.wet.any()]
+        usual += [10 * film.top for film in self.films if film.top > 0 and film.wet.any]
         finite = heights[np.isfinite(heights)]
         self.power = encoding.power_of(min(usual), float(np.ptp(finite)) if finite.size else 0.0)
         self.codes, self.height_hole = encoding.codes_of(heights, self.power)
+
+    def _try_pictures(self):
+        """Begins the pictures that tell how large others are: they may be those of the page."""
+        if not self._is_thinned:
+            return
+        gap = self._gap(self.with_gap[0]) if self.with_gap else None  # read before: a picture that is being packed takes much memory
+        self._try("height", "height", self.height_steps)
+        if gap:
+            self._try(f"gap{gap.place}", "gap", gap.steps)
+
+    def _try(self, name, panel, steps):
+        self.tried[name] = self.beside.submit(self._encoded, panel, steps, TRIED)
 
     def _height(self):
         return self._part(self.height_limits, self._kept(encoding.packed(self.codes), self.height_hole))
 
     def _contacts(self):
         """([{"label", "state", "pressure", "picture"}], the ends of the first section)."""
-        contacts, line, self.saturates = [], None, False
-        touched = np.zeros(self.maps.height.shape, dtype=bool)
+        self.touched, self.saturates, first = encoding.Bits(np.zeros(self.maps.shape, dtype=bool)), False, None
+        contacts = []
         for place, choice in enumerate(self.maps.contacts):
-            state, pressure = choice.load["contact"]()
-            contact = {"label": choice.label, "file": names.of_state(choice.label), "state": self._classes(state)}
-            if pressure is not None:
-                contact["pressure"] = self._pressure(pressure)
-            if self._is_thinned:
-                contact["picture"] = self._keep(f"contact{place}", encoding.contact_layer(state))
-            contacts.append(contact)
-            touched |= state > 0
-            self.saturates = self.saturates or bool((state > 1).any())
-            if place == self.maps.first[0]:
-                line = self._line(state > 0)
-        self.touched = touched
-        return contacts, line or self._line(touched)
+            state, pressure = choice.load["contact"](self.step)
+            found = {"label": choice.label, "file": names.of_state(choice.label), "state": self._classes(state)}
+            picture = {"picture": self._keep(f"contact{place}", encoding.contact_layer(state))} if self._is_thinned else {}
+            self.touched.add(state)
+            self.saturates = self.saturates or bool(state.max() > 1)
+            first = encoding.Bits(state) if place == self.maps.first[0] else first
+            del state  # before more is made, and the next is read
+            contacts.append({**found, **({} if pressure is None else {"pressure": self._pressure(pressure)}), **picture})
+        return contacts, self._line((first or self.touched).mask())
 
     def _classes(self, classes):
-        return self._kept(encoding.packed(self._on_grid(classes).astype(np.int64)), None)
+        return self._kept(encoding.packed(self._on_grid(classes)), None)
 
     def _pressure(self, pressure):
-        """In a step of its own [Pa]."""
-        values = np.asarray(self._on_grid(pressure), dtype=float)
-        limits = 0.0, self._limits(values[values > 0])[1] if (values > 0).any() else 1.0
-        power = encoding.power_of(limits[1], float(values.max(initial=0.0)))
-        codes, hole = encoding.codes_of(values, power)
+        """On the grid, in a step of its own [Pa]."""
+        above = pressure[pressure > 0].astype(float)
+        limits = 0.0, self._limits(above)[1] if above.size else 1.0
+        power = encoding.power_of(limits[1], float(above.max(initial=0.0)))
+        codes, hole = encoding.codes_of(pressure, power)
         return self._part(limits, self._kept(encoding.packed(codes), hole), power, units.scale(limits[1], "Pa"))
 
     def _film(self, place):
@@ -216,7 +250,7 @@ class _Encoder:
         codes, hole = encoding.codes_of(film.thickness, self.power)
         part = self._part((0.0, film.top), self._kept(encoding.packed(codes, self.codes, is_level=True), hole))
         label = self.maps.films[place].label
-        return {"label": label, "file": names.of_state(label), "wet": self._classes(film.wet), **part}
+        return {"label": label, "file": names.of_state(label), "wet": self._classes(film.wet.mask()), **part}
 
     def _part(self, limits, array, power=None, scale=None):
         """Numbers with the ends of their colours and their unit."""
@@ -230,35 +264,33 @@ class _Encoder:
         if self.maps.contacts and not films:
             self._keep("wet", encoding.wet_layer(np.zeros((1, 1))))
         for place, (part, film) in enumerate(zip(films, self.films)):
-            part["wet_picture"] = self._keep(f"wet{place}", encoding.wet_layer(self.touched & film.wet))
-        self.quality = self._quality(height)
-        height["picture"] = self._picture("height", "height", self.maps.height, height)
+            part["wet_picture"] = self._keep(f"wet{place}", encoding.wet_layer(self.touched.mask() & film.wet.mask()))
+        self.quality = self._quality()
+        if self.with_gap:
+            self._gap(self._order(self.with_gap)[0])  # _add_gaps asks for it first
+        height["picture"] = self._keep("height", self._picture("height", "height", self.height_steps))
 
-    def _quality(self, height):
-        pictures, arrays, count = self._try("height", "height", self.maps.height, height["limits"]), 0, len(self.with_gap)
+    def _quality(self):
+        pictures, arrays, count = self._size_of_tried("height"), 0, len(self.with_gap)
         if count:
             place = self.with_gap[0]
-            gap, array = self._gap_array(place)
-            pictures += count * self._try(f"gap{place}", "gap", gap, self._gap_limits(gap))
-            arrays = count * len(array["data"])
+            pictures += count * self._size_of_tried(f"gap{place}")
+            arrays = count * len(self._gap(place).array["data"])
         fitting = [quality for quality, size in QUALITIES.items() if size * pictures + arrays <= self.left]
         return max(fitting, default=min(QUALITIES))
 
-    def _try(self, name, panel, values, limits):
-        """Bytes of a picture, which is kept: it may be that of the page."""
-        self.tried[name] = self._encoded(panel, values, limits, TRIED)
-        return len(self.tried[name])
+    def _size_of_tried(self, name):
+        return len(self.tried[name].result())
 
-    def _gap_array(self, place):
-        """(gap, its array); the gap is read once: it is asked for twice in a row."""
-        if self.last[0] != place:
+    def _gap(self, place):
+        """The last one is read once."""
+        if self.last is None or self.last.place != place:
             gap = np.asarray(self.maps.contacts[place].load["gap"]())
             codes, hole = encoding.codes_of(self._on_grid(gap), self.power)
-            self.last = place, (gap, {**encoding.packed(codes, self.codes), "hole": hole})
-        return self.last[1]
-
-    def _gap_limits(self, gap):
-        return 0.0, self._limits(gap)[1]
+            limits = 0.0, self._limits(gap)[1]
+            steps = encoding.steps_of(gap, limits) if self._is_thinned else None
+            self.last = _GapMap(place, limits, {**encoding.packed(codes, self.codes), "hole": hole}, steps)
+        return self.last
 
     def _add_gaps(self, contacts):
         """The gap shown first, whatever its size, then those that fit; labels of the contacts whose gap does not."""
@@ -268,11 +300,11 @@ class _Encoder:
                 left_out.append(place)
                 continue
             before = self.left
-            gap, array = self._gap_array(place)
-            part = self._part(self._gap_limits(gap), array)
-            self.left -= len(array["data"])
+            gap = self._gap(place)
+            part = self._part(gap.limits, gap.array)
+            self.left -= len(gap.array["data"])
             if self._is_thinned:
-                part["picture"] = self._picture(f"gap{place}", "gap", gap, part)
+                part["picture"] = self._keep(f"gap{place}", self._picture(f"gap{place}", "gap", gap.steps))
             contacts[place]["gap"] = part
             cost = before - self.left
         return [contacts[place]["label"] for place in sorted(left_out)]
@@ -282,14 +314,12 @@ class _Encoder:
         preferred = [self.maps.first[0], *places[:1], *places[-1:], *places]
         return [place for place in dict.fromkeys(preferred) if place in places]
 
-    def _picture(self, name, panel, values, part):
+    def _picture(self, name, panel, steps):
         tried = self.tried.pop(name, None)
-        is_it = tried is not None and self.quality == TRIED
-        return self._keep(name, tried if is_it else self._encoded(panel, values, part["limits"], self.quality))
+        return tried.result() if tried and self.quality == TRIED else self._encoded(panel, steps, self.quality)
 
-    def _encoded(self, panel, values, limits, quality):
-        offset = self.mean if panel == "height" else 0.0
-        return encoding.coloured(values, limits, _table(COLOURS[panel]), HOLE, quality, offset)
+    def _encoded(self, panel, steps, quality):
+        return encoding.coloured(steps, _table(COLOURS[panel]), HOLE, quality)
 
     def _kept(self, array, hole):
         self.left -= len(array["data"])
@@ -312,10 +342,11 @@ class _Encoder:
 
     def _line(self, touching):
         """Ends of the first section, in pixels: along x through the most wet contact, without contact the most shores, of the richest window."""
-        wet = touching & self.films[self.maps.first[1]].wet if self.films else touching
+        film = self.films[self.maps.first[1]].wet.mask() if self.films else touching
+        wet = touching & film
         interest = wet if wet.any() else touching
         if self.films and not interest.any():
-            interest = shores(self.films[self.maps.first[1]].wet)
+            interest = shores(film)
         window = richest_window(interest)
         counts = window.of(interest).sum(axis=1)
         row = window.y0 + (int(np.argmax(counts)) if counts.max() > 0 else len(counts) // 2)

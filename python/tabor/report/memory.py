@@ -1,0 +1,16 @@
+"""How the C library of this process deals with memory that is free again."""
+
+import ctypes
+
+_TRIM_THRESHOLD, _MMAP_THRESHOLD = -1, -3  # of <malloc.h>
+LARGE = 4 << 20  # bytes
+
+
+def give_large_blocks_back():
+    """Maps and pictures that are not needed any more leave the process at once; glibc would hold several for later."""
+    try:
+        mallopt = ctypes.CDLL(None).mallopt
+    except (OSError, AttributeError):  # another C library
+        return
+    mallopt(_MMAP_THRESHOLD, LARGE)
+    mallopt(_TRIM_THRESHOLD, LARGE)
