@@ -15,7 +15,7 @@ from unittest import mock
 import h5py
 import numpy as np
 
-from tabor.report import cli, dependencies, encoding, errors, hdf, live_page, maps, names, output, page, section, still, style, units
+from tabor.report import cli, dependencies, encoding, errors, hdf, live_page, maps, names, output, page, section, still, style, surface_numbers, units
 from tabor.report.example import richest_window
 from tabor.report.figures import Drawn, psd
 from tabor.report.map_axes import round_length
@@ -274,6 +274,21 @@ class Grid(unittest.TestCase):
                 dataset = file.create_dataset(str(number), data=values, chunks=chunks)
                 for step in (1, 2, 3, 5, 64, 300):
                     np.testing.assert_array_equal(hdf.thinned(dataset, step), values[::step, ::step])
+
+    def test_the_distribution_is_that_of_all_heights(self):
+        rng = np.random.default_rng(8)
+        height = rng.standard_normal((40, 51)).astype(np.float32) * np.float32(1e-6)
+        height[rng.random(height.shape) < 0.1] = np.nan
+        given = height.copy()
+        found = surface_numbers.distribution(height)
+        np.testing.assert_array_equal(height, given)
+        z = np.sort(height[np.isfinite(height)].astype(float) - height[np.isfinite(height)].astype(float).mean())[::-1] * 1e6
+        self.assertEqual(found.unit, "µm")
+        share, edges = np.histogram(z, bins=surface_numbers.BINS)
+        np.testing.assert_allclose(found.edges, edges)
+        np.testing.assert_allclose(found.density * np.diff(edges) * z.size, share)
+        np.testing.assert_allclose(found.curve, np.interp(found.ratio, np.linspace(0, 100, z.size), z))
+        self.assertIsNone(surface_numbers.distribution(np.ones((3, 3))))
 
     def test_ticks_of_an_axis_are_round_and_within_it(self):
         for length in (0.9, 1.0, 7.3, 343.04, 9999.0):

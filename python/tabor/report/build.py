@@ -58,6 +58,8 @@ def build(source, folder, options, command):
     style.apply()
     folder = Path(folder)
     live = live_page.Live(source, options) if interactive.is_asked_for(options) else None
+    if source.kind == "single":
+        source.begin_numbers()  # figures are drawn meanwhile
     output.make_folder(folder / "figures" if options.figures else folder)
     shown, paths = [], []
     for drawn in _drawings(source, options, with_maps=bool(options.figures) or live is None):

@@ -3,7 +3,6 @@
 
 from tabor.report import areas, hdf, oil, refusals, units
 from tabor.report.columns import Columns
-from tabor.report.surface_numbers import amplitudes
 
 
 def sections(single):
@@ -163,8 +162,7 @@ def _scan(single):
         ("instrument", facts.get("instrument", "")),
         ("periodic", "yes" if facts.get("periodic") else "no"),
     ]
-    if not single.is_difference:
-        rows += list(amplitudes(single.raw_height()).items())
+    rows += list(single.amplitudes.items())
     sha256 = hdf.text_list(single.facts.get("input_sha256"))
     return {
         "file": single.title,

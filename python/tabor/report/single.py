@@ -2,10 +2,12 @@
 
 import math
 import tomllib
+from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass, field
+from functools import cached_property
 from pathlib import Path
 
-from tabor.report import columns, density_curves, hdf, remarks
+from tabor.report import columns, density_curves, hdf, remarks, surface_numbers
 from tabor.report.columns import Columns
 from tabor.report.density_curves import Places
 from tabor.report.errors import InputError, readable
@@ -25,6 +27,7 @@ class Single:
     warnings: list = field(default_factory=list)
     density_curves: Table = field(default_factory=lambda: Table({}))  # empty where a file has none
     density_places: Places = field(default_factory=Places)
+    _begun: Future = None  # of (amplitudes, distribution)
 
     kind = "single"
 
@@ -71,6 +74,32 @@ class Single:
 
     def height(self):
         return self.raw_height().astype(float, copy=False)
+
+    def begin_numbers(self):
+        """Amplitudes and distribution are computed by another thread until they are asked for."""
+        beside = ThreadPoolExecutor(1)
+        self._begun = beside.submit(self._numbers)
+        beside.shutdown(wait=False)
+
+    @cached_property
+    def amplitudes(self):
+        """Of the heights about their mean; {} of a difference."""
+        return self._begun.result()[0] if self._begun else self._amplitudes(self.raw_height())
+
+    @cached_property
+    def distribution(self):
+        """surface_numbers.Distribution of the heights, or None."""
+        return self._begun.result()[1] if self._begun else self._distribution(self.raw_height())
+
+    def _numbers(self):
+        height = self.raw_height()
+        return self._amplitudes(height), self._distribution(height)
+
+    def _amplitudes(self, height):
+        return {} if self.is_difference else surface_numbers.amplitudes(height)
+
+    def _distribution(self, height):
+        return surface_numbers.distribution(height, mean=not self.is_difference)
 
     def is_solved_on(self, state):
         """Whether a contact was solved on these heights, so that a section may show its gap."""

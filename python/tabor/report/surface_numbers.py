@@ -1,13 +1,28 @@
-"""Amplitudes of the surface of a result: ISO 25178-2 height parameters about the mean, over the pixels that have a height."""
+"""Numbers of all heights of the surface of a result: ISO 25178-2 parameters about the mean, and how the heights are distributed."""
 
 import math
+from dataclasses import dataclass
 
 import numpy as np
 
-from tabor.report import units
+from tabor.report import map_axes, units
 
 ROWS_AT_ONCE = 64
+BINS = 80
+POINTS = 201  # of the material ratio curve
+ENOUGH = 500_000  # heights that tell their unit
 MOST = 4_000_000  # heights that the distribution is made of: evenly spread ones of a larger map
+
+
+@dataclass
+class Distribution:
+    """Of heights in a unit that suits them: shares of the area in bins, and the material ratio curve (Abbott-Firestone)."""
+
+    unit: str
+    edges: np.ndarray
+    density: np.ndarray  # share of the area per unit
+    ratio: np.ndarray  # percent of the area that is higher than `curve`
+    curve: np.ndarray
 
 
 def amplitudes(height):
@@ -39,7 +54,29 @@ def _parts(height):
         yield rows[np.isfinite(rows)].astype(float)
 
 
-def sorted_heights(height, mean=True):
+def distribution(height, mean=True):
+    """None for a surface without two different heights."""
+    z = _sorted_heights(height, mean)
+    if z.size < 2 or z[0] == z[-1]:
+        return None
+    factor, unit = map_axes.height_unit(z[:: 1 + z.size // ENOUGH])
+    z *= factor
+    share, edges = np.histogram(z, bins=BINS)
+    ratio = np.linspace(0, 100, POINTS)
+    return Distribution(unit, edges, share / (z.size * np.diff(edges)), ratio, _at(ratio, z))
+
+
+def _at(ratio, z):
+    """Heights above which these percentages of them lie; few of them are looked at."""
+    step = 100 / (z.size - 1)
+    before = np.minimum((ratio / step).astype(int), z.size - 2)
+    places = np.unique(np.clip([before - 1, before, before + 1, before + 2], 0, z.size - 1))
+    shares = places * step
+    shares[-1] = 100.0
+    return np.interp(ratio, shares, z[places])
+
+
+def _sorted_heights(height, mean):
     """Valid heights [m] about their mean, or as they are, from high to low."""
     z = _evenly_spread(height)
     level = z.astype(float).mean() if mean and z.size else 0.0
