@@ -3,7 +3,7 @@
 import ctypes
 
 _TRIM_THRESHOLD, _MMAP_THRESHOLD = -1, -3  # of <malloc.h>
-LARGE = 4 << 20  # bytes
+LARGE = 8 << 20  # bytes
 
 
 def give_large_blocks_back():

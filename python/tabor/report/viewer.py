@@ -201,7 +201,8 @@ class _Encoder:
         usual += [10 * film.top for film in self.films if film.top > 0 and film.wet.any]
         finite = heights[np.isfinite(heights)]
         self.power = encoding.power_of(min(usual), float(np.ptp(finite)) if finite.size else 0.0)
-        self.codes, self.height_hole = encoding.codes_of(heights, self.power)
+        codes, self.height_hole = encoding.codes_of(heights, self.power)
+        self.codes = codes.astype(np.int32)
 
     def _try_pictures(self):
         """Begins the pictures that tell how large others are: they may be those of the page."""
