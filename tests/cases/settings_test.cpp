@@ -67,15 +67,16 @@ TEST(Edges, SayWhatSurroundsTheScanUnlessTheBoundaryDoes) {
     for (const Boundary boundary : {Boundary::periodic, Boundary::free}) {
       settings.boundary = boundary;
       const bool agree = (edges == Edges::end) == (boundary == Boundary::free);
-      EXPECT_EQ(objection(settings, edges, same).has_value(), !agree);
+      EXPECT_EQ(objection(settings, edges).has_value(), !agree);
     }
-    EXPECT_FALSE(objection(ContactSettings{}, edges, same));
+    EXPECT_FALSE(objection(ContactSettings{}, edges));
   }
   settings.boundary = Boundary::free;
-  EXPECT_FALSE(objection(settings, std::nullopt, same));
-  const auto found = objection(settings, Edges::cut, same);
+  EXPECT_FALSE(objection(settings, std::nullopt));
+  const auto found = objection(settings, Edges::cut);
   EXPECT_TRUE(found->is_about_use);
-  EXPECT_EQ(found->remedy, "edges cut and boundary free contradict each other; give one of them");
+  EXPECT_EQ(found->remedy,
+            "<edges=cut> and <boundary=free> contradict each other; give one of them");
 }
 
 TEST(Materials, EachValueHasItsSource) {

@@ -20,6 +20,7 @@ TEST(NearestMatch, FindsTyposAndStaysSilentOnStrangers) {
   EXPECT_FALSE(nearest_match("temperature", {"level", "lowpass"}));
   EXPECT_EQ(suggestion("presure", {"pressure"}), "; did you mean 'pressure'?");
   EXPECT_EQ(suggestion("zzzzzz", {"pressure"}), "");
+  EXPECT_FALSE(nearest_match("z", {"x", "y"}));
 }
 
 TEST(NearestMatch, IsNearToTheFirstWordsOfAName) {

@@ -46,8 +46,7 @@ std::optional<Objection> objection_to_idle(const FluidSettings& settings,
       {"eyring_stress", settings.eyring_stress.has_value()}};
   for (const auto& [setting, is_given] : given) {
     if (!is_given) continue;
-    return objection_to_use(
-        setting, fmt::format("{} needs {} reynolds", spelling(setting), spelling("fluid")));
+    return objection_to_use(setting, spelling(setting) + " needs <fluid=reynolds>");
   }
   return std::nullopt;
 }
@@ -130,21 +129,20 @@ std::optional<Objection> objection_to_controls(const CaseSettings& settings, boo
                        (boundary_is_known || settings.contact.boundary.has_value());
   if (settings.forces.empty() || !repeats) return std::nullopt;
   return objection_to_use(
-      "force", fmt::format("{} needs a body that ends; use {} free, or {} for a surface that "
-                           "repeats",
-                           spelling("force"), spelling("boundary"), spelling("mean_pressure")));
+      "force",
+      fmt::format("{} needs a body that ends; use <boundary=free>, or {} for a surface that "
+                  "repeats",
+                  spelling("force"), spelling("mean_pressure")));
 }
 
 std::optional<Objection> objection(const ContactSettings& settings,
-                                   const std::optional<topography::Edges>& edges,
-                                   const Spelling& spelling) {
+                                   const std::optional<topography::Edges>& edges) {
   if (!edges || !settings.boundary) return std::nullopt;
   const bool ends = *edges == topography::Edges::end;
   if (ends == (*settings.boundary == Boundary::free)) return std::nullopt;
   return objection_to_use(
-      "edges", fmt::format("{} {} and {} {} contradict each other; give one of them",
-                           spelling("edges"), topography::kEdges.of(*edges), spelling("boundary"),
-                           kBoundaries.of(*settings.boundary)));
+      "edges", fmt::format("<edges={}> and <boundary={}> contradict each other; give one of them",
+                           topography::kEdges.of(*edges), kBoundaries.of(*settings.boundary)));
 }
 
 std::optional<Objection> objection(const FilmSettings& settings) {
@@ -154,14 +152,15 @@ std::optional<Objection> objection(const FilmSettings& settings) {
 std::optional<Objection> objection(const FluidSettings& settings, const ContactSettings& contact,
                                    const Spelling& spelling) {
   if (!settings.flows()) return objection_to_idle(settings, spelling);
-  const std::string asked = spelling("fluid") + " reynolds ";
   if (!settings.sliding_speed) {
-    return objection_to_use("sliding_speed", fmt::format("{0}needs {1}, e.g. {1} 5mm/s", asked,
-                                                         spelling("sliding_speed")));
+    return objection_to_use("sliding_speed",
+                            fmt::format("<fluid=reynolds> needs {}, e.g. <sliding_speed=5mm/s>",
+                                        spelling("sliding_speed")));
   }
   if (!settings.viscosity) {
-    return objection_to_use(
-        "viscosity", fmt::format("{0}needs {1}, e.g. {1} 0.225Pa*s", asked, spelling("viscosity")));
+    return objection_to_use("viscosity",
+                            fmt::format("<fluid=reynolds> needs {}, e.g. <viscosity=0.225Pa*s>",
+                                        spelling("viscosity")));
   }
   if (auto found = objection_to_bounds(fluid_parameters(), settings)) {
     if (found->setting == "sliding_speed") {
@@ -171,16 +170,14 @@ std::optional<Objection> objection(const FluidSettings& settings, const ContactS
   }
   friction::lubricant_of(settings.oil());
   if (contact.tool.is_rough()) {
-    return objection_to_use(
-        "tool", fmt::format("{}needs a flat; leave out the rough tool, which would change the gap "
-                            "as it slides",
-                            asked));
+    return objection_to_use("tool",
+                            "<fluid=reynolds> needs a flat; leave out the rough tool, which would "
+                            "change the gap as it slides");
   }
   if (contact.is_periodic()) return std::nullopt;
   return objection_to_use("boundary",
-                          fmt::format("{}needs a surface that repeats; use <edges=tile> or "
-                                      "<edges=cut>",
-                                      asked));
+                          "<fluid=reynolds> needs a surface that repeats; use <edges=tile> or "
+                          "<edges=cut>");
 }
 
 std::optional<Objection> objection_to_trapped(const CaseSettings& all, const Spelling& spelling) {

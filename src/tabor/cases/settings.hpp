@@ -150,8 +150,7 @@ std::optional<Objection> objection_to_controls(const CaseSettings& settings, boo
                                                const Spelling& spelling);
 /// Returns an objection to a boundary that contradicts the known edges of the surface.
 std::optional<Objection> objection(const ContactSettings& settings,
-                                   const std::optional<topography::Edges>& edges,
-                                   const Spelling& spelling);
+                                   const std::optional<topography::Edges>& edges);
 std::optional<Objection> objection(const FilmSettings& settings);
 std::optional<Objection> objection(const FluidSettings& settings, const ContactSettings& contact,
                                    const Spelling& spelling);

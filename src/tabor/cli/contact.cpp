@@ -63,7 +63,7 @@ Scan prepared(Request& request, const std::string& path, Context& context) {
   Scan scan = read_scan(request.scan, context);
   require_no_holes(scan);
   cases::ContactSettings& contact = request.settings.contact;
-  check(cases::objection(contact, scan.surface.edges, flag_of));
+  check(cases::objection(contact, scan.surface.edges));
   contact.take_edges(scan.surface.edges);
   check_all(request, true);
   return scan;

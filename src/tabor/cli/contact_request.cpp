@@ -122,7 +122,7 @@ void check(const std::optional<cases::Objection>& objection) {
 void take_edges(const ScanRequest& scan, cases::ContactSettings& settings) {
   check(scan);
   const auto edges = topography::edges_of(scan.treatment);
-  check(cases::objection(settings, edges, flag_of));
+  check(cases::objection(settings, edges));
   settings.take_edges(edges);
 }
 

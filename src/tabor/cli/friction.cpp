@@ -317,7 +317,7 @@ int show(Request request, Context& context) {
   const double seconds_of_reading = watch.seconds();
   require_no_holes(scan);
   cases::ContactSettings& contact = request.settings.contact;  // a file may say its edges, too
-  check(cases::objection(contact, scan.surface.edges, flag_of));
+  check(cases::objection(contact, scan.surface.edges));
   contact.take_edges(scan.surface.edges);
   check_all(request.settings);
   auto file = fields_file(request.file, context, scan, request.settings);

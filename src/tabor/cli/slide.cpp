@@ -149,7 +149,7 @@ int show(Request request, Context& context) {
   const Scan scan = read_scan(request.scan, context);
   require_no_holes(scan);
   cases::ContactSettings& contact = request.settings.contact;
-  check(cases::objection(contact, scan.surface.edges, flag_of));
+  check(cases::objection(contact, scan.surface.edges));
   contact.take_edges(scan.surface.edges);
   const cases::SlideParts parts = cases::parts_of(request.settings, request.sliding);
   auto file = fields_file(request.file, context, scan, request.settings, request.sliding);

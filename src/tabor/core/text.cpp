@@ -83,7 +83,8 @@ std::optional<std::string> nearest_match(std::string_view word,
   std::size_t best_distance = std::max<std::size_t>(2, word.size() / 3) + 1;
   for (const std::string& candidate : candidates) {
     const std::size_t distance = distance_to(lower(word), lower(candidate));
-    if (distance < best_distance) {
+    const bool is_alike = distance < std::max(word.size(), candidate.size());  // a letter or more
+    if (is_alike && distance < best_distance) {
       best_distance = distance;
       best = candidate;
     }

@@ -46,8 +46,9 @@ std::string key_of(std::string_view setting) {
 void check(const io::Config& config, const std::optional<cases::Objection>& objection) {
   if (!objection) return;
   const std::string place = config.place(key_of(objection->setting));
-  if (objection->got.empty()) throw InputError(place + ": " + objection->remedy);
-  throw InputError(place, objection->got, objection->expected, objection->remedy);
+  const std::string remedy = advised(objection->remedy, spelling());
+  if (objection->got.empty()) throw InputError(place + ": " + remedy);
+  throw InputError(place, objection->got, objection->expected, remedy);
 }
 
 AdviceSpelling spelling() {

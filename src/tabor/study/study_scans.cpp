@@ -112,7 +112,7 @@ void check_edges(const io::Config& config, const Study& alone) {
     throw InputError(config.name() + ": " + error.what());
   }
   const auto edges = topography::edges_of(alone.treatment);
-  check(config, cases::objection(alone.settings.contact, edges, key_of));
+  check(config, cases::objection(alone.settings.contact, edges));
   if (alone.flows() && !alone.settings.contact.is_periodic()) {
     reject(config, "contact.edges", "'end'",
            "'tile' or 'cut': a film that flows is solved on a patch that repeats");
