@@ -155,7 +155,7 @@ def test_ctrl_c_keeps_what_is_finished(tmp_path, scan_file):
     ({"density": "-1 g/m^2"}, "lubricant_density"),
     ({"treatment": ["levle=plane"]}, "did you mean 'level'"),
     ({"pressure": None}, "pressure: missing for group '.*'; give Study a pressure, or each of its Scans one of its own"),
-    ({"edges": "cut", "boundary": "free"}, "contact.edges cut .* contradict"),
+    ({"edges": "cut", "boundary": "free"}, "contact.edges: .* contradict"),
     ({"model": "droplet"}, "did you mean 'droplets'")])
 def test_what_no_study_can_be_is_refused(folder, changes, text):
     with pytest.raises(ValueError, match=text):
