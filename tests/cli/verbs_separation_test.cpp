@@ -80,6 +80,8 @@ TEST_F(SeparationVerb, ForceOnABallIsThatOfHertz) {
   EXPECT_NEAR(found.at("mean_pressure_Pa").get<double>() * area, 8, 1e-9);
   EXPECT_NEAR(found.at("approach_m").get<double>() / hertz.approach, 1, 5e-3);
   EXPECT_NEAR(found.at("max_pressure_Pa").get<double>() / hertz.max_pressure, 1, 5e-3);
+  EXPECT_THAT(run_tabor(press + Words{"--force", "8 N,0.5N"}).out,
+              HasSubstr("8 N, 500 mN on 256 µm x 256 µm"));
 }
 
 TEST_F(SeparationVerb, OneOfPressureSeparationAndForceIsGiven) {

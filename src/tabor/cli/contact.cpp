@@ -1,5 +1,10 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "tabor/cases/parameters.hpp"
 #include "tabor/cli/contact_request.hpp"
@@ -69,6 +74,13 @@ Scan prepared(Request& request, const std::string& path, Context& context) {
   return scan;
 }
 
+/// Forces, in the order of the states, and the surface that they press on.
+std::string words_of(const std::vector<double>& forces, const Grid& grid) {
+  std::vector<std::string> each;
+  for (const double force : forces) each.push_back(si(force, "N"));
+  return fmt::format("{} on {} x {}", fmt::join(each, ", "), si(grid.lx, "m"), si(grid.ly, "m"));
+}
+
 /// The states of one scan, ready for every kind of output.
 struct Solved {  // NOLINT(bugprone-exception-escape): moving JSON checks an assertion
   std::string path;
@@ -113,6 +125,9 @@ Solved solve(Request request, const std::string& path, Context& context) {
   Facts facts;
   describe(scan, facts);
   describe(settings, facts);
+  if (!request.settings.forces.empty()) {
+    facts.fact("force", words_of(request.settings.forces, scan.surface.grid));
+  }
   solved.facts = facts.text();
   return solved;
 }
