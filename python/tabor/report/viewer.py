@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -222,17 +222,27 @@ class _Encoder:
     def _contacts(self):
         """([{"label", "state", "pressure", "picture"}], the ends of the first section)."""
         self.touched, self.saturates, first = encoding.Bits(np.zeros(self.maps.shape, dtype=bool)), False, None
-        contacts = []
+        contacts, layers = [], []
         for place, choice in enumerate(self.maps.contacts):
             state, pressure = choice.load["contact"](self.step)
             found = {"label": choice.label, "file": names.of_state(choice.label), "state": self._classes(state)}
-            picture = {"picture": self._keep(f"contact{place}", encoding.contact_layer(state))} if self._is_thinned else {}
+            layers += [self._layer(state)] if self._is_thinned else []
             self.touched.add(state)
             self.saturates = self.saturates or bool(state.max() > 1)
             first = encoding.Bits(state) if place == self.maps.first[0] else first
             del state  # before more is made, and the next is read
-            contacts.append({**found, **({} if pressure is None else {"pressure": self._pressure(pressure)}), **picture})
+            contacts.append({**found, **({} if pressure is None else {"pressure": self._pressure(pressure)})})
+        for place, layer in enumerate(layers):
+            contacts[place]["picture"] = self._keep(f"contact{place}", layer.result())
         return contacts, self._line((first or self.touched).mask())
+
+    def _layer(self, state):
+        """A Future of the picture of a contact: the other thread packs it where that has no large one."""
+        if all(tried.done() for tried in self.tried.values()):
+            return self.beside.submit(encoding.contact_layer, state)
+        made = Future()
+        made.set_result(encoding.contact_layer(state))
+        return made
 
     def _classes(self, classes):
         return self._kept(encoding.packed(self._on_grid(classes)), None)
