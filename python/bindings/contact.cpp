@@ -137,9 +137,7 @@ OwnMap<contact::LabelMap> patches(const ContactRecord& one, const ContactSetting
 
 /// Takes the boundary from what is said about the edges of the surface; both must agree.
 void take_edges(ContactSettings& settings, const topography::Topography& surface) {
-  if (const auto found = cases::objection(settings, surface.edges)) {
-    throw InputError(found->remedy);
-  }
+  if (const auto found = cases::objection(settings, surface.edges)) throw InputError(found->remedy);
   settings.take_edges(surface.edges);
 }
 

@@ -198,13 +198,15 @@ metrology::PsdOptions psd_options(const std::string& convention,
                                   const std::optional<double>& fit_min,
                                   const std::optional<double>& fit_max) {
   const auto known = metrology::psd_convention_from(convention);
-  if (!known)
+  if (!known) {
     throw InputError("convention", "'" + convention + "'", "jacobs, persson or gwyddion", "");
+  }
   metrology::PsdOptions options{
       .convention = *known, .window = {}, .fit_q_min = fit_min, .fit_q_max = fit_max};
   if (window) options.window = metrology::psd_window_from(*window);
-  if (window && !options.window)
+  if (window && !options.window) {
     throw InputError("window", "'" + *window + "'", "none or hann", "");
+  }
   return options;
 }
 
