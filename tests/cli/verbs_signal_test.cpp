@@ -173,6 +173,22 @@ TEST_F(SignalVerbs, CombineFindsTheShiftAndTheVolumeGone) {
   EXPECT_NEAR(map.height(40, 55), 5e-6, 0.1e-6);
 }
 
+TEST_F(SignalVerbs, CombineRejectsOptionsThatWouldDoNothing) {
+  const auto refusal = [&](const Words& options) {
+    const Outcome outcome = run_tabor(Words{"combine", file("a.sdf"), file("a.sdf")} + options);
+    EXPECT_EQ(outcome.code, 2) << outcome.err;
+    return outcome.err;
+  };
+  EXPECT_THAT(refusal({"--no-register", "--shift", "1um,0um"}), HasSubstr("give one of them"));
+  for (const char* mode : {"difference", "composite"}) {
+    EXPECT_THAT(refusal({"--mode", mode, "--threshold", "8"}), HasSubstr("needs --mode wear"));
+  }
+  EXPECT_THAT(refusal({"--mode", "composite", "--match", "plane"}), HasSubstr("needs --mode wear"));
+  EXPECT_EQ(
+      json_of({"combine", file("a.sdf"), file("a.sdf"), "--mode", "composite"}).at("level_match"),
+      "none");
+}
+
 TEST_F(SignalVerbs, CombineSaysHowMuchHolesLeaveOut) {
   topography::Topography scan = scan::read(worn());
   EXPECT_THAT(run_tabor({"combine", file("a.sdf"), file("worn.sdf")}).err,

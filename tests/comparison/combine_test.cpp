@@ -276,6 +276,48 @@ TEST(WearVolume, OfNothingIsWithinItsUncertainty) {
   EXPECT_LT(squares / n, 2);
 }
 
+/// A rough surface before and after a pit of 20 x 20 pixels and 200 nm.
+struct Pit {
+  topography::Topography before = self_affine_surface(96, 0.8, 1e-6, 3);
+  topography::Topography after = before;
+  double volume = 20 * 20 * kPixel * kPixel * 200e-9;
+
+  Pit() { after.height.block(30, 50, 20, 20) -= 200e-9; }
+};
+
+TEST(WearVolume, ItsNetScattersAsItSaysWhateverIsMatched) {
+  for (const LevelMatch level : {LevelMatch::none, LevelMatch::offset, LevelMatch::plane}) {
+    double squares = 0;
+    constexpr int n = 24;
+    for (std::uint64_t seed = 1; seed <= n; ++seed) {
+      Pit pit;
+      add_noise(pit.before, 5e-9, 2 * seed);
+      add_noise(pit.after, 5e-9, 2 * seed + 1);
+      CombineOptions options;
+      options.search = false;
+      options.level = level;
+      const auto net = combine(pit.before, pit.after, options).wear->net;
+      squares += std::pow((net.value - pit.volume) / net.uncertainty, 2);
+    }
+    EXPECT_LT(squares / n, 2) << name_of(level);
+    EXPECT_GT(squares / n, 0.4) << name_of(level);
+  }
+}
+
+TEST(WearVolume, DoesNotCountTheRoundingOfHeights) {
+  Pit pit;
+  for (topography::Topography* each : {&pit.before, &pit.after}) {
+    each->height += 1e-3 * 3e-4;  // other last digits
+    each->height = each->height.cast<float>().cast<double>();
+  }
+  CombineOptions options;
+  options.search = false;
+  const auto wear = combine(pit.before, pit.after, options).wear;
+  EXPECT_NEAR(wear->worn.value / pit.volume, 1, 1e-4);
+  EXPECT_LE(wear->worn.area, 28 * 28 * kPixel * kPixel);  // smoothed, it has a rim
+  EXPECT_EQ(wear->piled_up.area, 0);
+}
+
 TEST(RobustPlane, RestsOnWhatIsExactlyEqual) {
   auto loss = surface({60, 50, 60e-6, 50e-6}, [](double, double) { return 0; });
   loss.height.block(10, 5, 20, 36) += 1e-6;  // 24 % of the map
@@ -297,8 +339,9 @@ TEST(WearVolume, CountsKnownBlocks) {
 
 TEST(WearVolume, RejectsAThresholdThatIsNone) {
   const auto rough = noise({32, 32, 1e-3, 1e-3});
-  EXPECT_THAT(tabor::test::rejection([&] { wear_volumes(rough.height, rough.grid, 0); }),
-              HasSubstr("threshold"));
+  EXPECT_THAT(
+      tabor::test::rejection([&] { wear_volumes(rough.height, rough.grid, {.threshold = 0}); }),
+      HasSubstr("threshold"));
 }
 
 TEST(Combine, OfOneScanWithItselfIsZero) {

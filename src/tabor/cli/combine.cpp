@@ -28,10 +28,10 @@ struct Request {
   ScanRequest scan;
   std::string second;
   std::string mode = "wear";
-  std::string match = "plane";
+  std::optional<std::string> match;
   bool no_register = false;
   std::vector<double> shift;  ///< [m], empty or x, y
-  double threshold = 4;
+  std::optional<double> threshold;
   std::optional<std::string> output;
 };
 
@@ -65,8 +65,8 @@ void describe(const Registration& r, Facts& facts) {
              fmt::format("{} ± {} along x, {} ± {} along y", si(r.shift_x, "m"),
                          si(r.uncertainty_x, "m"), si(r.shift_y, "m"), si(r.uncertainty_y, "m")));
   facts.fact("match",
-             fmt::format("correlation {:.4f} over {}; stands out {:.1f} times, next best "
-                         "shift {:.0f} % of it",
+             fmt::format("correlation {:.4f} over {}; {:.1f} times its scatter at other shifts, "
+                         "next best shift {:.0f} % of it",
                          r.correlation, percent(r.overlap), r.distinction, 100 * r.runner_up));
 }
 
@@ -108,11 +108,20 @@ comparison::CombineOptions options_of(const Request& request) {
   if (!request.shift.empty() && request.shift.size() != 2) {
     throw UsageError("--shift: expected two lengths, e.g. 12um,-3.5um");
   }
+  if (request.no_register && !request.shift.empty()) {
+    throw UsageError("--no-register and --shift both place the second scan; give one of them");
+  }
+  if (request.threshold && request.mode != "wear") {
+    throw UsageError("--threshold needs --mode wear: the other modes look for no changes");
+  }
+  if (request.match && request.mode == "composite") {
+    throw UsageError("--match needs --mode wear or difference: two faces are added as they are");
+  }
   comparison::CombineOptions options;
   options.mode = *comparison::combine_mode_from(request.mode);
-  options.level = *comparison::level_match_from(request.match);
+  if (request.match) options.level = *comparison::level_match_from(*request.match);
   options.search = !request.no_register;
-  options.threshold = request.threshold;
+  options.threshold = request.threshold.value_or(options.threshold);
   if (!request.shift.empty()) {
     options.shift_x = request.shift[0];
     options.shift_y = request.shift[1];
@@ -149,7 +158,8 @@ int show(const Request& request, Context& context) {
   object["second_scan"] = {{"path", b.path}, {"sha256", b.sha256}};
   object["second_treatment_history"] = b.surface.history;
   object["mode"] = request.mode;
-  object["level_match"] = request.match;
+  object["level_match"] =
+      options.mode == CombineMode::composite ? "none" : comparison::name_of(options.level);
   object.update(results::values_of(c));
   std::string text = text_of(request, a, b, c);
   if (request.output) {
@@ -176,7 +186,7 @@ void declare_options(OptionSet& set, Request& request) {
                  dimension::length, request.shift);
   set.choice("--match", {"none", "offset", "plane"},
              "offset or tilt between the scans to remove, fitted where nothing changed [plane]",
-             request.match);
+             [&request](const std::string& word) { request.match = word; });
   set.number("--threshold", "SIGMAS",
              "smallest change that counts, in standard deviations of the noise [4]",
              request.threshold);

@@ -194,15 +194,15 @@ double correlated_pixels(const Field& loss, const Grid& grid, const Mask& quiet)
   return sum_of_correlation(metrology::autocorrelation(only(quiet, loss), grid));
 }
 
-Changes find_changes(const Field& loss, const Grid& grid, double threshold) {
+Changes find_changes(const Field& loss, const Grid& grid, double threshold, double resolution) {
   const Field smooth = smoothed(loss, grid);
   const Mask valid = !loss.isNaN();
   Changes changes;
   changes.quiet = valid;
   double deviation = 0;
   for (int step = 0; step < kMostSteps; ++step) {
-    deviation = quiet_spread(smooth, changes.quiet);
-    changes.noise = quiet_spread(loss, changes.quiet);
+    deviation = std::max(resolution, quiet_spread(smooth, changes.quiet));
+    changes.noise = std::max(resolution, quiet_spread(loss, changes.quiet));
     changes.threshold = threshold * deviation;
     const Rings rings(smooth > changes.threshold, smooth < -changes.threshold);
     const double lift = lift_of(threshold, changes.noise, deviation);

@@ -23,7 +23,8 @@ double correlated_pixels(const Field& loss, const Grid& grid, const Mask& quiet)
 /// four rings is not above zero: a rim too shallow to be seen pixel by pixel is seen in the mean
 /// over all of it. There is a rim where the mean of the first four rings is above twice its error,
 /// beyond what noise has around places that it lifted above the threshold. Each pixel belongs to
-/// the nearest change.
-Changes find_changes(const Field& loss, const Grid& grid, double threshold);
+/// the nearest change. Noise is taken as `resolution` [m] at least, what the heights resolve: below
+/// it a difference is one of rounding.
+Changes find_changes(const Field& loss, const Grid& grid, double threshold, double resolution);
 
 }  // namespace tabor::comparison

@@ -96,6 +96,15 @@ void find_shift(const topography::Topography& a, const topography::Topography& b
   result.shift_y = options.shift_y.value_or(composite ? (b.grid.ly - a.grid.ly) / 2 : 0);
 }
 
+/// What numbers of single precision, as most files hold, resolve of heights as large as these [m].
+double resolution_of(const Field& height) {
+  const double largest = parallel_max(height.size(), [&](Index begin, Index end) {
+    const auto part = height.reshaped<Eigen::RowMajor>().segment(begin, end - begin).abs();
+    return part.isNaN().select(0, part).maxCoeff();
+  });
+  return std::numeric_limits<float>::epsilon() * largest;
+}
+
 RobustPlane plane_of(const Field& difference, LevelMatch match) {
   if (match == LevelMatch::none) return {.spread = robust_spread(difference)};
   RobustPlane plane = fit_robust_plane(difference);
@@ -110,7 +119,7 @@ RobustPlane plane_of(const Field& difference, LevelMatch match) {
 /// The plane of the places that show no change: the rim of a scar bends one that is only robust.
 /// What shows a change depends on the plane in turn.
 RobustPlane plane_of_unchanged(const Field& difference, const Grid& grid,
-                               const CombineOptions& options) {
+                               const CombineOptions& options, double resolution) {
   constexpr int most_steps = 12;
   constexpr double fewest = 0.02;  // of the pixels; too few hold no plane
   RobustPlane plane = plane_of(difference, options.level);
@@ -118,7 +127,8 @@ RobustPlane plane_of_unchanged(const Field& difference, const Grid& grid,
   Mask quiet;
   for (int step = 0; step < most_steps; ++step) {
     const Mask before = quiet;
-    quiet = find_changes(remove_plane(difference, plane), grid, options.threshold).quiet;
+    quiet =
+        find_changes(remove_plane(difference, plane), grid, options.threshold, resolution).quiet;
     const auto n = static_cast<double>(quiet.count());
     const bool is_same = before.size() > 0 && (before == quiet).all();
     if (is_same || n < 9 || n < fewest * static_cast<double>(quiet.size())) break;
@@ -153,6 +163,7 @@ Combination combine(const topography::Topography& first, const topography::Topog
   Combination result;
   find_shift(a, b, options, result, observer);
   const Field moved = move_onto(b, a.grid, result.shift_x, result.shift_y);
+  const double resolution = std::max(resolution_of(a.height), resolution_of(moved));
   const CommonMoments moments = common_moments(a.height, moved);
   result.n_common = static_cast<Index>(moments.n);
   if (result.n_common < 9) {
@@ -172,7 +183,7 @@ Combination combine(const topography::Topography& first, const topography::Topog
     result.map.height = a.height + moved;
   } else {
     const Field difference = a.height - moved;
-    result.plane = plane_of_unchanged(difference, a.grid, options);
+    result.plane = plane_of_unchanged(difference, a.grid, options, resolution);
     result.map.height = remove_plane(difference, result.plane);
   }
   result.map.history.push_back(line_of(result, options, b));
@@ -185,7 +196,8 @@ Combination combine(const topography::Topography& first, const topography::Topog
   const CommonMoments map_moments = common_moments(result.map.height, result.map.height);
   result.rms_map = std::sqrt(map_moments.variance_a);
   if (options.mode == CombineMode::wear) {
-    result.wear = wear_volumes(result.map.height, result.map.grid, options.threshold);
+    result.wear = wear_volumes(result.map.height, result.map.grid,
+                               {options.threshold, options.level, resolution});
   }
   return result;
 }

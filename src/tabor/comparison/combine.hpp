@@ -44,7 +44,7 @@ struct Volume {
 /// Gaussian of cutoff 5 pixels, at `threshold` times its noise, and summed in the difference
 /// itself, with the rims around them that only the mean over a ring shows. Uncertainties come from
 /// the noise of unchanged places: its standard deviation, the area over which it is correlated, and
-/// the plane fitted to it.
+/// the plane or offset fitted to it, which shares the noise of the places that it rests on.
 struct WearVolumes {
   Volume worn;             ///< removed material
   Volume piled_up;         ///< more than before (as a positive volume)
@@ -85,7 +85,14 @@ std::string_view name_of(LevelMatch match);
 Combination combine(const topography::Topography& a, const topography::Topography& b,
                     const CombineOptions& options = {}, const Observer& observer = {});
 
+/// How the zero of a map of height losses was found, and how finely heights are known.
+struct LossOptions {
+  double threshold = 4;                  ///< see CombineOptions
+  LevelMatch level = LevelMatch::plane;  ///< what was fitted to the unchanged places and removed
+  double resolution = 0;                 ///< [m]; smaller differences of heights are rounding
+};
+
 /// Computes the volumes of a map of height losses whose zero is the unchanged surface.
-WearVolumes wear_volumes(const Field& loss, const Grid& grid, double threshold = 4);
+WearVolumes wear_volumes(const Field& loss, const Grid& grid, const LossOptions& options = {});
 
 }  // namespace tabor::comparison

@@ -34,8 +34,10 @@ inline double biweight(double residual, double cutoff) {
   return std::abs(t) < 1 ? (1 - t * t) * (1 - t * t) : 0;
 }
 
-/// Cutoff of Tukey's biweight in standard deviations: 95 % efficient on Gaussian residuals.
+/// Cutoff of Tukey's biweight in standard deviations, and the variance of least squares over that
+/// of its fits to Gaussian residuals.
 inline constexpr double kBiweightReach = 4.685;
+inline constexpr double kBiweightEfficiency = 0.95;
 
 /// Sums the normal equations of a fit. columns(y, x) is the row of the design matrix at a pixel;
 /// NaN there or in `residual` leaves the pixel out. Weights are those of `residual`, which is
