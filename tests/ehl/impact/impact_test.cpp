@@ -19,7 +19,10 @@ namespace {
 using test::expect_within;
 using test::from_groups;
 using test::rejection;
+using testing::Contains;
 using testing::HasSubstr;
+using testing::Not;
+using testing::Value;
 
 ImpactProblem usual() { return from_groups(0.005, 8.70e-12, 7.475e13, 3500); }
 
@@ -137,6 +140,21 @@ TEST(SolveImpact, RejectsWhatMakesNoSense) {
   EXPECT_THAT(
       rejected([](auto& p) { p.lubricant.viscosity = material::barus_viscosity(0.1, 3e-7); }),
       HasSubstr("barus"));
+}
+
+TEST(SolveImpact, TellsWhereTheTimeStepDecides) {
+  ImpactProblem problem = usual();
+  problem.nodes = 60;
+  const ImpactResult fine = solve_impact(problem);
+  EXPECT_THAT(texts_of(fine.warnings), Not(Contains(HasSubstr("A time step is"))));
+  for (const double steps : {100, 20}) {
+    problem.time_step = 400 / steps * fine.time_step;
+    const ImpactResult result = solve_impact(problem);
+    const bool is_right = std::abs(result.max_force / fine.max_force - 1) < 4e-3;
+    EXPECT_EQ(is_right, steps == 100);
+    const bool is_told = Value(texts_of(result.warnings), Contains(HasSubstr("A time step is")));
+    EXPECT_EQ(is_told, !is_right) << steps;
+  }
 }
 
 TEST(SolveImpact, WarningsAReboundThatItsDomainDecides) {  // slow

@@ -136,6 +136,19 @@ TEST(SolveSqueeze, HardlyDependsOnTheTimeStep) {
   EXPECT_NEAR(a.min_film / b.min_film, 1, 2e-3);
 }
 
+TEST(SolveSqueeze, TellsWhereTheTimeStepDecides) {
+  const SqueezeResult fine = solve_squeeze(roller(5));
+  EXPECT_TRUE(fine.warnings.empty());
+  for (const double step : {5e-6, 1e-5, 1e-4, 1.0}) {
+    SqueezeProblem problem = roller(5);
+    problem.time_step = step;
+    const SqueezeResult result = solve_squeeze(problem);
+    const bool is_right = std::abs(result.max_force / fine.max_force - 1) < 5e-3;
+    const bool is_told = !result.warnings.empty() && result.warnings.front().code == "coarse-steps";
+    EXPECT_EQ(is_told, !is_right) << step;
+  }
+}
+
 TEST(SolveSqueeze, RejectsWhatMakesNoSense) {
   SqueezeProblem problem = roller(5);
   problem.spring = 0;

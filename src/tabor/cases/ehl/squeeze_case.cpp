@@ -66,6 +66,7 @@ CaseResult answer_of(const SqueezeResult& result, const char* code) {
       squeeze_columns(), SqueezeRecord{.measures = result, .n_steps = result.history.size() - 1});
   answer.facts = {facts_of(result)};
   answer.status = status_of(result.convergence);
+  answer.warnings = result.warnings;
   if (!result.reason.empty()) answer.warnings.push_back({code, result.reason});
   return answer;
 }

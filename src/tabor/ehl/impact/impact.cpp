@@ -27,9 +27,12 @@ constexpr double kShortestStep = 1e-6;   // of the nominal step
 constexpr double kGrowth = 1.5;          // of the step, after one that worked
 constexpr double kChange = 3e-4;         // of the pressure against its trend, per step
 constexpr double kLongestStep = 8;
-constexpr double kNoForce = 1e-4;         // of the maximum: the impact is over
-constexpr double kNoPressure = 1e-9;      // of the largest
-constexpr double kNoSpeed = 1e-3;         // of the speed of approach: the ball has stopped
+constexpr double kNoForce = 1e-4;     // of the maximum: the impact is over
+constexpr double kNoPressure = 1e-9;  // of the largest
+constexpr double kNoSpeed = 1e-3;     // of the speed of approach: the ball has stopped
+constexpr int kStepsPerImpact = 400;  // of a dry ball
+// A time step above this share of the dry impact changes force and film by half a percent and more.
+constexpr double kLongStep = 0.04;
 constexpr double kWideDomain = 2;         // dry contact radii: less is warned of
 constexpr double kLongestContacts = 100;  // dry contact times until we give up waiting
 
@@ -79,7 +82,7 @@ class Impact {
         observer_(observer),
         keeps_factors_(keeps_factors),
         dry_(dry_impact(problem)) {
-    nominal_step_ = problem.time_step > 0 ? problem.time_step : dry_.contact_time / 400;
+    nominal_step_ = problem.time_step > 0 ? problem.time_step : dry_.contact_time / kStepsPerImpact;
     result_.time_step = nominal_step_;
     result_.convergence = exact(kBallTolerance);
   }
@@ -311,6 +314,14 @@ class Impact {
       if (at.force >= result_.max_force / 2) pressure = std::max(pressure, at.central_pressure);
     }
     result_.warnings = material::warnings(problem_.lubricant, pressure);
+    if (const double share = nominal_step_ / dry_.contact_time; share > kLongStep) {
+      result_.warnings.push_back(
+          {"coarse-steps",
+           fmt::format("A time step is {:.2g} of the time of the dry impact, so force, film and "
+                       "rebound depend on it. Give steps of {} or less",
+                       share, format_si(dry_.contact_time / kStepsPerImpact, "s")),
+           share / kLongStep});
+    }
     const double radii = result_.domain_radius / dry_.max_radius;
     if (result_.end != ImpactEnd::rebound || radii >= kWideDomain) return;
     result_.warnings.push_back(

@@ -26,6 +26,7 @@ constexpr int kIntervals = 200;          // of the integral of the pressure
 constexpr int kBisections = 55;          // of the angle of the exit
 constexpr double kFilmAccuracy = 1e-12;  // relative
 constexpr int kStepsPerLayer = 2000;
+constexpr int kFewestAtPeak = 15;  // instants; with fewer the force is wrong by a percent and more
 constexpr int kMaxDoublings = 60;  // of the reach in which a film is looked for
 constexpr double kMostSteps = 1e7;
 constexpr double kLongest = 5;  // times the layer over the speed until we give up waiting
@@ -197,13 +198,15 @@ double zero_between(double t0, double v0, double t1, double v1) {
 bool follow(const SqueezeProblem& problem, const Roller& roller, Watch& watch,
             std::vector<SqueezeInstant>& history) {
   const double longest = longest_time(problem);
+  double share = 0;  // of the way to a closed gap, of which most of the time is spent
   while (history.back().time < longest) {
     if (!std::isfinite(history.back().force)) return false;
     const std::size_t n = history.size();
     const auto next = roller.after(history[n - 1], n > 1 ? &history[n - 2] : nullptr);
     if (!next) return false;
     history.push_back(*next);
-    watch.tell(next->time / longest);
+    share = std::max(share, 1 - next->film / problem.layer);
+    watch.tell(share);
     if (next->film_speed > 0 && next->roller_speed > 0) return true;
   }
   return true;
@@ -233,6 +236,19 @@ void measure(SqueezeResult& result) {
     }
   }
   result.lag = result.time_min_film - result.time_max_force;
+}
+
+/// Where few instants make the peak of the force, it and the smallest film depend on the step.
+Warnings warnings_of(const SqueezeProblem& problem, const SqueezeResult& result) {
+  const auto n =
+      std::count_if(result.history.begin(), result.history.end(),
+                    [&](const SqueezeInstant& at) { return at.force >= result.max_force / 2; });
+  if (n >= kFewestAtPeak || !std::isfinite(result.max_force)) return {};
+  return {{"coarse-steps",
+           fmt::format("Few instants make the peak of the force (above half of it: {}), so force "
+                       "and film depend on the time step. Give steps of {} or less",
+                       n, format_si(problem.layer / (kStepsPerLayer * problem.speed), "s")),
+           static_cast<double>(kFewestAtPeak) / static_cast<double>(n)}};
 }
 
 }  // namespace
@@ -265,6 +281,7 @@ SqueezeResult solve_squeeze(const SqueezeProblem& problem, const Observer& obser
   result.convergence = {.certificate = kFilmAccuracy, .tolerance = kFilmAccuracy};
   const bool is_sound = went_on && std::isfinite(result.max_force);
   result.convergence.status = is_sound ? Status::converged : Status::stalled;
+  if (is_sound) result.warnings = warnings_of(problem, result);
   if (stopped) {
     result.convergence.status = Status::stopped;
   } else if (!went_on) {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "tabor/core/convergence.hpp"
+#include "tabor/core/warning.hpp"
 
 // Solves a roller that closes on a sliding flat under a layer of liquid.
 namespace tabor::ehl {
@@ -49,6 +50,7 @@ struct SqueezeMeasures {
 /// A squeezed film.
 struct SqueezeResult : SqueezeMeasures {
   std::string reason;  ///< of an end without a turning, one line
+  Warnings warnings;
   std::vector<SqueezeInstant> history;
 };
 
