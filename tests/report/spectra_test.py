@@ -52,6 +52,18 @@ class Spectra(unittest.TestCase):
             np.testing.assert_allclose(curve.y, density * (1e24 if curve.label == "radial" else 1e18))
         self.assertEqual(len(rows_of(drawn.data[""])), 3 * N // 2)
 
+    def test_treatment_convention_and_window_stand_on_the_page(self):
+        scan = [("my scan", "my scan.x3p")]
+        source = self.source()
+        self.assertEqual(page_spectra.sections(source)["settings"], scan)
+        source.file.close()  # it is written anew
+        with h5py.File(self.path, "a") as file:
+            file["curves"].attrs.update({"convention": "jacobs", "window": "hann", "treatment": ["level=plane", "crop=0,0,9,9"]})
+        source = build.open_result(self.path)
+        self.addCleanup(source.file.close)
+        said = [("treatment", "level=plane, crop=0,0,9,9"), ("convention", "jacobs"), ("window", "hann")]
+        self.assertEqual(page_spectra.sections(source)["settings"], said + scan)
+
     def test_exponents_of_the_file_stand_on_the_page(self):
         write(self.path)
         with h5py.File(self.path, "a") as file:

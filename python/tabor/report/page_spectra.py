@@ -8,7 +8,17 @@ from tabor.report.spectra import NAMES
 
 def sections(source):
     files = [(one.name, one.file) for one in source.sets if one.file not in ("", one.name)]
-    return {"answer": _answer(source), "settings": files, "settings_title": "Scans"}
+    return {"answer": _answer(source), "settings": [*_conditions(source), *files], "settings_title": "Scans and spectra"}
+
+
+def _conditions(source):
+    """What densities depend on beside the scan; of several scans that differ, all words."""
+    rows = []
+    for name in ("treatment", "convention", "window"):
+        words = dict.fromkeys(one.conditions[name] for one in source.sets if name in one.conditions)
+        if words:
+            rows.append((name, "; ".join(words)))
+    return rows
 
 
 def _answer(source):

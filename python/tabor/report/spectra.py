@@ -24,6 +24,7 @@ class Curves:
     exponents: dict = field(default_factory=dict)  # {axis: (H, its standard error)}, of a scan alone
     n_scans: int = 1
     file: str = ""  # of a scan
+    conditions: dict = field(default_factory=dict)  # {"treatment", "convention", "window": text}, as far as the file has them
 
     @property
     def is_mean(self):
@@ -82,7 +83,9 @@ def load(path, file):
 
 
 def _of_scan(scan, node):
-    return Curves(scan, *_read(node), _exponents(node), file=scan)
+    facts = hdf.attributes(node)
+    known = {name: ", ".join(hdf.text_list(facts[name])) for name in ("treatment", "convention", "window") if name in facts}
+    return Curves(scan, *_read(node), _exponents(node), file=scan, conditions=known)
 
 
 def _shorten(sets):

@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "tabor/cli/csv_output.hpp"
 #include "tabor/cli/each_scan.hpp"
@@ -38,6 +40,7 @@ struct Measured {  // NOLINT(bugprone-exception-escape): moving JSON checks an a
   io::Json object;
   std::string text;
   results::Case doubts;
+  std::vector<std::string> treatment;  ///< steps
 };
 
 cases::SpectraSettings settings_of(const Request& request) {
@@ -63,7 +66,8 @@ Measured measure(const Request& request, const std::string& file, const Context&
   Measured measured{.record = cases::spectra_of(scan.surface, settings, observer),
                     .object = json_head(context, scan),
                     .text = {},
-                    .doubts = doubts_of(scan)};
+                    .doubts = doubts_of(scan),
+                    .treatment = scan.treatment};
   add(measured.record.warnings, measured.doubts.warnings);
   measured.object.update(results::json_of(measured.record));
   measured.text = text_of(scan, measured.record);
@@ -110,17 +114,33 @@ std::vector<cases::GroupSpectra> means_of(const std::vector<GroupMembers>& group
 
 bool is_one(const Request& request) { return request.files.size() == 1 && request.groups.empty(); }
 
+/// What the curves of one scan depend on, for a file.
+std::vector<std::pair<std::string, std::vector<std::string>>> attributes_of(const Measured& one) {
+  std::vector<std::pair<std::string, std::vector<std::string>>> attributes;
+  if (one.record.spectra) {
+    attributes.push_back(
+        {"convention", {std::string(metrology::name_of(one.record.spectra->convention))}});
+    attributes.push_back({"window", {std::string(metrology::name_of(one.record.spectra->window))}});
+  }
+  if (!one.treatment.empty()) attributes.push_back({"treatment", one.treatment});
+  return attributes;
+}
+
 /// Returns the curves of each scan and of each group.
 std::vector<results::CurveSet> curve_sets(const Request& request, const std::vector<Measured>& all,
                                           const std::vector<cases::GroupSpectra>& groups) {
-  if (is_one(request)) return {{.curves = results::curves_of(all.front().record)}};
+  if (is_one(request)) {
+    return {{.attributes = attributes_of(all.front()),
+             .curves = results::curves_of(all.front().record)}};
+  }
   std::vector<results::CurveSet> sets;
   const std::vector<std::string> names = results::headings(request.files);
   for (std::size_t i = 0; i < all.size(); ++i) {
     sets.push_back({.place = fmt::format("/scans/{:04}", i),
                     .heading = names[i],
-                    .attributes = {{"file", {request.files[i]}}},
+                    .attributes = attributes_of(all[i]),
                     .curves = results::curves_of(all[i].record)});
+    sets.back().attributes.push_back({"file", {request.files[i]}});
   }
   for (std::size_t i = 0; i < groups.size(); ++i) {
     sets.push_back({.place = fmt::format("/groups/{:04}", i),
@@ -153,7 +173,10 @@ int show(const Request& request, Context& context) {
   warn_of(all, context);
   const std::vector<cases::GroupSpectra> groups = means_of(members, request, all);
   io::Json object = is_one(request) ? all.front().object : json_of(all, groups, context);
-  if (!groups.empty()) text += '\n' + text_of(groups);
+  const bool has_window = std::any_of(all.begin(), all.end(), [](const Measured& one) {
+    return one.record.spectra && one.record.spectra->window_gain != 1;
+  });
+  if (!groups.empty()) text += '\n' + text_of(groups, has_window);
   const std::vector<results::CurveSet> sets = curve_sets(request, all, groups);
   if (request.output) {
     results::write_curves(sets, *request.output,

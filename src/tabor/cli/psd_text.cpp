@@ -103,8 +103,9 @@ std::string text_of(const Scan& scan, const cases::SpectraRecord& curves) {
   return facts.text() + (curves.spectra || curves.hdf ? '\n' + table.text() : "");
 }
 
-std::string text_of(const std::vector<cases::GroupSpectra>& groups) {
-  Table table({"group", "scans", "rms height, mean", "standard deviation", "points, x y radial"});
+std::string text_of(const std::vector<cases::GroupSpectra>& groups, bool has_window) {
+  Table table({"group", "scans", has_window ? "rms height in window, mean" : "rms height, mean",
+               "standard deviation", "points, x y radial"});
   const auto points = [](const std::optional<metrology::MeanSpectrum>& mean) {
     return mean ? fmt::format("{}", mean->q.size()) : std::string("-");
   };

@@ -11,7 +11,7 @@ namespace tabor::cli {
 
 /// Returns facts and a table, as text.
 std::string text_of(const Scan& scan, const cases::SpectraRecord& curves);
-/// Returns one row per group.
-std::string text_of(const std::vector<cases::GroupSpectra>& groups);
+/// Returns one row per group; a window makes rms heights smaller than Sq, and the heading says so.
+std::string text_of(const std::vector<cases::GroupSpectra>& groups, bool has_window);
 
 }  // namespace tabor::cli
