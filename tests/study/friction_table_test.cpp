@@ -189,6 +189,10 @@ TEST(FrictionTable, AsksForAGroupWhereThereAreSeveral) {
 }
 
 TEST(FrictionTable, RejectsWhatIsNotThere) {
+  FrictionNumbers alone = three_pressures();
+  for (FrictionNumber& number : alone.numbers) number.group = "";
+  EXPECT_THAT(message_of([&] { friction_table(alone, {.group = "before"}); }),
+              HasSubstr("these have none"));
   const FrictionNumbers numbers = three_pressures();
   EXPECT_THAT(message_of([&] { friction_table(numbers, {.lubricant_densities = {9e-4}}); }),
               testing::AllOf(HasSubstr("0.9 g/m^2"), HasSubstr("0.45 g/m^2")));

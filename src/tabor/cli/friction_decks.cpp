@@ -125,13 +125,16 @@ void warn_of_left_out(const FrictionTable& table, Context& context) {
   }
 }
 
+/// Below it the error of a fit is one of rounding, and no digit of a deck.
+constexpr double kSmallestShownError = 1e-9;
+
 /// What the law of OpenRadioss misses, for each density.
 io::Json report_fits(const FrictionTable& table, Context& context) {
   io::Json all = io::Json::array();
   for (const forming::DarmstadFit& fit : forming::fit_darmstad(table)) {
     const double density = in_g_per_m2(fit.lubricant_density);
     all.push_back({{"lubricant_density_g_per_m2", density}, {"largest_error", fit.largest_error}});
-    if (!(fit.largest_error > 0)) continue;
+    if (fit.largest_error < kSmallestShownError) continue;
     context.warn(
         fmt::format("{} g/m^2: the fitted law misses a friction coefficient by up to {:.3g}",
                     density, fit.largest_error));

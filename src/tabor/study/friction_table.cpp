@@ -42,6 +42,10 @@ std::string chosen_group(const std::vector<FrictionNumber>& numbers,
   if (!asked && groups.size() == 1) return groups.front();
   const bool is_there = asked && std::find(groups.begin(), groups.end(), *asked) != groups.end();
   if (is_there) return *asked;
+  if (asked && groups.size() == 1 && groups.front().empty()) {
+    throw InputError("<group>", fmt::format("'{}'", *asked), "scans in groups; these have none",
+                     "leave it out");
+  }
   throw InputError(asked ? "<group>" : "several groups of scans",
                    asked ? fmt::format("'{}'{}", *asked, suggestion(*asked, groups)) : "",
                    fmt::format("one of: {}", fmt::join(groups, ", ")),

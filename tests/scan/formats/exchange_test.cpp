@@ -332,6 +332,14 @@ TEST_F(Picture, PngHasItsScaleAndHoles) {
   EXPECT_THAT(note_of(map, folder / "map.png"), HasSubstr("<z_scale"));
 }
 
+TEST_F(Picture, ArrayOfNumPySaysWhatItLacks) {
+  topography::Topography map = test::small_map();
+  map.grid.lx = 0.67e-6 * static_cast<double>(map.grid.nx);
+  map.grid.ly = 0.5e-6 * static_cast<double>(map.grid.ny);
+  EXPECT_THAT(note_of(map, "map.npy"),
+              testing::AllOf(HasSubstr("<unit=m>"), HasSubstr("<pixel=0.67um,0.5um>")));
+}
+
 TEST_F(Picture, TiffHasSinglePrecisionAndHoles) {
   const topography::Topography map = test::small_map();
   write(map, folder / "map.tif");

@@ -155,4 +155,12 @@ void write_npy(const topography::Topography& topography, const std::filesystem::
   write_npy_map(as_maps(topography, "height"), file);
 }
 
+std::string note_npy(const topography::Topography& topography) {
+  const double dx = topography.grid.dx() * 1e6;
+  const double dy = topography.grid.dy() * 1e6;
+  return fmt::format(
+      "heights in m, without unit and pixel; <unit=m> and <pixel={}> give them",
+      dx == dy ? fmt::format("{:.9g}um", dx) : fmt::format("{:.9g}um,{:.9g}um", dx, dy));
+}
+
 }  // namespace tabor::scan::format

@@ -37,6 +37,7 @@ void write_sdf_ascii(const topography::Topography& topography, const std::filesy
 Match identify_npy(std::string_view head);
 Document open_npy(const Contents& contents);
 void write_npy(const topography::Topography& topography, const std::filesystem::path& file);
+std::string note_npy(const topography::Topography& topography);
 void write_npy_map(const MapSet& maps, const std::filesystem::path& file);
 
 Match identify_sur(std::string_view head);
