@@ -77,6 +77,7 @@ Scan prepared(Request& request, const std::string& path, Context& context) {
 /// Forces, in the order of the states, and the surface that they press on.
 std::string words_of(const std::vector<double>& forces, const Grid& grid) {
   std::vector<std::string> each;
+  each.reserve(forces.size());
   for (const double force : forces) each.push_back(si(force, "N"));
   return fmt::format("{} on {} x {}", fmt::join(each, ", "), si(grid.lx, "m"), si(grid.ly, "m"));
 }

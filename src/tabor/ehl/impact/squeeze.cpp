@@ -169,8 +169,9 @@ class Roller {
       high += reach *= 2;
     }
     double low = std::max(0.0, high - 2 * reach);
-    while (value(low) > 0)
-      low = std::max(0.0, low - (reach *= 2));  // ends at zero, where it is -infinity
+    while (value(low) > 0) {  // ends at zero, where it is -infinity
+      low = std::max(0.0, low - (reach *= 2));
+    }
     return numerics::increasing_root(value, low, high, kFilmAccuracy);
   }
 
