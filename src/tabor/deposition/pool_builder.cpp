@@ -15,6 +15,7 @@ namespace tabor::deposition {
 namespace {
 
 // Pixels in order of height lie anywhere: how many ahead of its turn one is asked of the memory.
+constexpr std::size_t kNear = 16;
 constexpr std::size_t kFar = 24;
 
 constexpr std::size_t kDigits = 2048;    // of a pass of the radix sort
@@ -147,12 +148,11 @@ void PoolBuilder::build() {
   }
   to_.last_ = grown(pool_at(0));
   release(into_);
-  release(ascending);
   forget_absorbed();
   go_on_or_throw();
   number_by_place();
   go_on_or_throw();
-  make_arcs();
+  make_arcs(ascending);
   go_on_or_throw();
   start_leaves();
 }
@@ -171,6 +171,12 @@ PoolId PoolBuilder::new_pool(Height base) {
   to_.growth_.emplace_back();
   is_absorbed_.push_back(false);
   return id;
+}
+
+void PoolBuilder::prefetch_site(const std::vector<Pixel>& ascending, std::size_t place) const {
+  if (place < ascending.size()) {
+    __builtin_prefetch(&to_.sites_[static_cast<std::size_t>(ascending[place])]);
+  }
 }
 
 /// The rows above and below; the neighbours in the row most likely come with the pixel itself.
@@ -265,7 +271,7 @@ void PoolBuilder::number_by_place() {
   }
 }
 
-void PoolBuilder::make_arcs() {
+void PoolBuilder::make_arcs(const std::vector<Pixel>& ascending) {
   check_places(to_.sites_.size() + to_.pools_.size());
   for (const auto& site : to_.sites_) ++growth(site.pool).next;
   std::int32_t begin = 0;
@@ -278,7 +284,7 @@ void PoolBuilder::make_arcs() {
   reserve_large_pages(to_.arcs_, n_places);
   to_.arcs_.resize(n_places);
   to_.is_rim_.resize(n_places);
-  fill_arcs();
+  fill_arcs(ascending);
   begin = 0;
   for (std::size_t id = 0; id < to_.pools_.size(); ++id) {
     Growth& each = to_.growth_[id];
@@ -288,15 +294,16 @@ void PoolBuilder::make_arcs() {
     to_.is_rim_[rim] = true;
     each.next = std::exchange(begin, each.next + 1);
   }
-  sort_arcs();
 }
 
-/// Puts all heights into the arcs of their pools and finds the lowest pixels of all pools but
-/// leaves; with ordered ties that is always one.
-void PoolBuilder::fill_arcs() {
+/// Puts all heights in their places and finds the lowest pixels of all pools but leaves; with
+/// ordered ties that is always one.
+void PoolBuilder::fill_arcs(const std::vector<Pixel>& ascending) {
   std::unordered_map<PoolId, std::vector<Pixel>> several;
-  for (Pixel p = 0; p < to_.terrain().size(); ++p) {
-    go_on_or_throw(static_cast<std::size_t>(p));
+  for (std::size_t i = 0; i < ascending.size(); ++i) {
+    go_on_or_throw(i);
+    prefetch_site(ascending, i + kNear);
+    const Pixel p = ascending[i];
     const auto& site = to_.sites_[static_cast<std::size_t>(p)];
     Growth& at = growth(site.pool);
     to_.arcs_[static_cast<std::size_t>(at.next++)] = site.height;
@@ -314,17 +321,6 @@ void PoolBuilder::fill_arcs() {
     to_.saddles_.push_back(first);
     to_.saddles_.insert(to_.saddles_.end(), more.begin(), more.end());
   }
-}
-
-void PoolBuilder::sort_arcs() {
-  const auto n = static_cast<Index>(to_.pools_.size());
-  parallel_for(n, kBlock, [&](Index begin, Index end) {
-    for (Index id = begin; id < end; ++id) {
-      const auto place = [&](Index of) { return growth(static_cast<PoolId>(of)).next; };
-      const auto arc_end = id + 1 < n ? place(id + 1) : static_cast<std::int32_t>(to_.arcs_.size());
-      std::sort(to_.arcs_.begin() + place(id), to_.arcs_.begin() + arc_end - 1);
-    }
-  });
 }
 
 /// Leaves hold liquid from the start; all other pools wait for their children. A leaf without

@@ -24,14 +24,14 @@ class PoolBuilder {
 
   PoolId grown(PoolId id);  ///< what `id` has merged into so far
   void add(Pixel p);
+  void prefetch_site(const std::vector<Pixel>& ascending, std::size_t place) const;
   void prefetch_neighbours(const std::vector<Pixel>& ascending, std::size_t place) const;
   PoolId new_pool(Height base);
   PoolId merge(Height base);
   void join(PoolId into, PoolId id, Height base);
   void settle_sites(Group group);
-  void make_arcs();
-  void fill_arcs();
-  void sort_arcs();
+  void make_arcs(const std::vector<Pixel>& ascending);
+  void fill_arcs(const std::vector<Pixel>& ascending);
   void forget_absorbed();
   void number_by_place();
   void start_leaves();
