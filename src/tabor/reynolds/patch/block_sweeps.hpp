@@ -15,7 +15,7 @@ namespace tabor::reynolds {
 /// for any number of threads, and so are the bits of the results.
 ///
 /// Rows are stored divided by their diagonals, and the neighbour that a sweep has just changed
-/// comes last in its row: one node then waits for the one before it as short as possible.
+/// comes last in its row, so that each node waits as briefly as possible for the one before it.
 class BlockSweeps {
  public:
   explicit BlockSweeps(CouplingMatrix matrix);
