@@ -73,12 +73,12 @@ def _fields_of(name: str, form: re.Pattern[str], fields: str) -> dict[str, Any]:
 
 
 def _measured(surface: Surface, steps: Sequence[str], symbols: Iterable[str] | None, progress: Progress) -> Parameters:
-    """Parameters of one treated surface, which an error names."""
+    """Parameters of one surface after its treatment, in whose errors the surface is named."""
     try:
         treated = surface.treat(*steps, progress=progress) if steps else surface
-        return treated.parameters(symbols, progress=progress)
     except InputError as error:
         raise type(error)(f"{surface.source}: {error}") from error
+    return treated.parameters(symbols, progress=progress)
 
 
 @takes(READ)

@@ -70,10 +70,12 @@ class Slide(Shown):
 
     def _lines(self) -> list[tuple[str, str]]:
         distance = _tabor.format_si(float(self.states["distance_m"][-1]), "m")
-        frictions = [(word, f"friction_{word}") for word in ("dry", "lubricated", "ploughing")]
+        kinds = {"dry friction": "friction_dry", "lubricated friction": "friction_lubricated",
+                 "with squeezed oil": "friction_lubricated_squeezed", "ploughing friction": "friction_ploughing"}
+        last = {words: self.states[key][-1] for words, key in kinds.items() if key in self.states}
         lines = [("distance", f"{distance} in {self.steps} steps"),
                  ("states", f"{len(self.states['distance_m'])}, {len(self.maps)} of them with maps"),
-                 *((word, f"{self.states[key][-1]:.4g} at the end") for word, key in frictions if key in self.states)]
+                 *((words, f"{value:.4g} at the end") for words, value in last.items() if np.isfinite(value))]
         return [*lines, *([] if self.converged else [("converged", "no")]), *(("warning", one.text) for one in self.warnings)]
 
     def __getstate__(self) -> dict[str, Any]:

@@ -170,9 +170,11 @@ def test_a_slide(tile, tmp_path):
 def test_a_slide_shows_where_it_ended_and_its_warnings(tile):
     given = tb.slide(tile, "7 MPa", SOLID, "2 um", step="0.67 um", density="0.9 g/m^2", tool="ground:Sa=0.1um")
     shown = repr(given)
-    assert shown.startswith(f"Slide\n  distance    2.01 µm in {given.steps} steps\n")
-    assert f"lubricated  {given.states['friction_lubricated'][-1]:.4g} at the end" in shown
+    assert shown.startswith(f"Slide\n  distance             2.01 µm in {given.steps} steps\n")
+    assert f"lubricated friction  {given.states['friction_lubricated'][-1]:.4g} at the end" in shown
     assert all(one.text in shown for one in given.warnings) and "<table>" in given._repr_html_()
+    dry = repr(tb.slide(tile, "7 MPa", SOLID, "2 um", step="0.67 um", tool="ground:Sa=0.1um"))
+    assert "dry friction" in dry and "lubricated" not in dry and "nan" not in dry
 
 
 def test_a_slide_of_the_command_line(program, scan_file, tmp_path):

@@ -8,6 +8,7 @@ namespace tabor::io {
 namespace {
 
 using testing::ElementsAre;
+using testing::EndsWith;
 using testing::HasSubstr;
 
 constexpr const char* kText = R"(title = "test"
@@ -72,7 +73,8 @@ TEST(Config, NamesTheKindOfAWrongValue) {
               HasSubstr("study.toml:9: sweep.seed: got the number 3; expected text"));
   EXPECT_THAT(message_of([] { config().number("sweep.on"); }), HasSubstr("got true"));
   EXPECT_THAT(message_of([] { config().integer("material.poissons_ratio"); }),
-              HasSubstr("a whole number"));
+              HasSubstr("a whole number in digits alone"));
+  EXPECT_THAT(message_of([] { config().integer("title"); }), EndsWith("expected a whole number"));
   EXPECT_THAT(message_of([] { config().flag("title"); }), HasSubstr("true or false"));
   EXPECT_THAT(message_of([] { config().tables("material"); }), HasSubstr("[[material]]"));
   EXPECT_THAT(message_of([] { config().text("material.hardness"); }),

@@ -56,13 +56,18 @@ def make(result, output=None, *, html=True, static=False, figures=None, scan=Non
 
 def _run(result, output, options, command):
     # Imported late: these modules need the libraries that were just checked.
-    from tabor.report import hdf
+    from tabor.report import guard, hdf
 
+    guard.forget()  # a file may have changed since another page was made
     hdf.begin(result)  # it is tried while this process imports the rest
-    from tabor.report import applicable, build, interactive
+    try:
+        from tabor.report import applicable, build, interactive
 
-    if interactive.is_asked_for(options):
-        interactive.load()
+        if interactive.is_asked_for(options):
+            interactive.load()
+    except Exception:
+        guard.forget()
+        raise
     source = build.open_result(result)
     with source.file:
         applicable.check(source, options)

@@ -30,7 +30,7 @@ _begun = {}  # path: the _Trial of a file that is being tried
 
 
 def begin(path):
-    """Starts to try the file beside what this process does before it asks for problem()."""
+    """Starts to try the file in the background until problem() is asked for."""
     if path in _found or path in _begun:
         return
     refusal = _refusal(path)
@@ -57,8 +57,9 @@ def try_together(paths):
 
 def forget():
     """Files are tried again."""
+    while _begun:
+        _begun.popitem()[1].ending()
     _found.clear()
-    _begun.clear()
 
 
 def _refusal(path):

@@ -1,7 +1,5 @@
 """How the C library of this process deals with memory that is free again."""
 
-import ctypes
-
 _TRIM_THRESHOLD, _MMAP_THRESHOLD = -1, -3  # of <malloc.h>
 LARGE = 8 << 20  # bytes
 
@@ -9,8 +7,10 @@ LARGE = 8 << 20  # bytes
 def give_large_blocks_back():
     """Maps and pictures that are not needed any more leave the process at once; glibc would hold several for later."""
     try:
+        import ctypes
+
         mallopt = ctypes.CDLL(None).mallopt
-    except (OSError, AttributeError):  # another C library
+    except (ImportError, OSError, AttributeError):  # another C library, or no way to call it
         return
     mallopt(_MMAP_THRESHOLD, LARGE)
     mallopt(_TRIM_THRESHOLD, LARGE)

@@ -12,7 +12,7 @@ def sections(source):
 
 
 def _conditions(source):
-    """What densities depend on beside the scan; of several scans that differ, all words."""
+    """What densities depend on beside the scan; all that occur, if scans differ."""
     rows = []
     for name in ("treatment", "convention", "window"):
         words = dict.fromkeys(one.conditions[name] for one in source.sets if name in one.conditions)

@@ -30,7 +30,7 @@ GROUNDS = {"height": HOLE, "pressure": (255, 255, 255), "gap": HOLE, "film": DRY
 class Choice:
     """One contact or one film: `load` reads its maps, by name.
 
-    "contact": of a step, (state, every step-th pressure or None); "gap" and "film".
+    "contact": called with a step, returns (state, every step-th pressure or None); "gap" and "film".
     """
 
     label: str
@@ -226,7 +226,10 @@ class _Encoder:
         for place, choice in enumerate(self.maps.contacts):
             state, pressure = choice.load["contact"](self.step)
             found = {"label": choice.label, "file": names.of_state(choice.label), "state": self._classes(state)}
-            layers += [self._layer(state)] if self._is_thinned else []
+            if self._is_thinned:
+                if layers:
+                    layers[-1].result()  # no more than two contacts are held
+                layers.append(self._layer(state))
             self.touched.add(state)
             self.saturates = self.saturates or bool(state.max() > 1)
             first = encoding.Bits(state) if place == self.maps.first[0] else first

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <utility>
 
 #include "tabor/cli/result.hpp"
 #include "tabor/cli/table.hpp"
@@ -111,11 +112,15 @@ comparison::CombineOptions options_of(const Request& request) {
   if (request.no_register && !request.shift.empty()) {
     throw UsageError("--no-register and --shift both place the second scan; give one of them");
   }
-  if (request.threshold && request.mode != "wear") {
-    throw UsageError("--threshold needs --mode wear: the other modes look for no changes");
-  }
-  if (request.match && request.mode == "composite") {
-    throw UsageError("--match needs --mode wear or difference: two faces are added as they are");
+  if (request.mode == "composite") {
+    for (const auto& [flag, is_given] : {std::pair{"--threshold", request.threshold.has_value()},
+                                         std::pair{"--match", request.match.has_value()},
+                                         std::pair{"--no-register", request.no_register}}) {
+      if (!is_given) continue;
+      throw UsageError(fmt::format(
+          "{} needs --mode wear or difference: two faces are added as they are, centre on centre",
+          flag));
+    }
   }
   comparison::CombineOptions options;
   options.mode = *comparison::combine_mode_from(request.mode);

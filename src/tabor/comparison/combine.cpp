@@ -96,10 +96,16 @@ void find_shift(const topography::Topography& a, const topography::Topography& b
   result.shift_y = options.shift_y.value_or(composite ? (b.grid.ly - a.grid.ly) / 2 : 0);
 }
 
-/// What numbers of single precision, as most files hold, resolve of heights as large as these [m].
+/// What single precision, in which most files store heights, resolves of these about their mean
+/// [m].
 double resolution_of(const Field& height) {
-  const double largest = parallel_max(height.size(), [&](Index begin, Index end) {
-    const auto part = height.reshaped<Eigen::RowMajor>().segment(begin, end - begin).abs();
+  const auto sums = sum_over_rows<2>(height.rows(), [&](Index y) {
+    const auto valid = !height.row(y).isNaN();
+    return Eigen::Array2d(valid.select(height.row(y), 0).sum(), static_cast<double>(valid.count()));
+  });
+  const double mean = sums[0] / sums[1];
+  const double largest = parallel_max(height.rows(), [&](Index begin, Index end) {
+    const auto part = (height.middleRows(begin, end - begin) - mean).abs();
     return part.isNaN().select(0, part).maxCoeff();
   });
   return std::numeric_limits<float>::epsilon() * largest;
@@ -109,7 +115,16 @@ RobustPlane plane_of(const Field& difference, LevelMatch match) {
   if (match == LevelMatch::none) return {.spread = robust_spread(difference)};
   RobustPlane plane = fit_robust_plane(difference);
   if (match == LevelMatch::offset) {
-    // The robust mean of what is left of the tilt: its plane goes through the same centre.
+    // The robust mean: the height of the plane at the centre of the points, without its tilt.
+    const auto sums = sum_over_rows<3>(difference.rows(), [&](Index y) {
+      Eigen::Array3d row = Eigen::Array3d::Zero();
+      for (Index x = 0; x < difference.cols(); ++x) {
+        if (std::isnan(difference(y, x))) continue;
+        row += Eigen::Array3d(across(x, difference.cols()), across(y, difference.rows()), 1);
+      }
+      return row;
+    });
+    plane.offset += (plane.tilt_x * sums[0] + plane.tilt_y * sums[1]) / sums[2];
     plane.tilt_x = plane.tilt_y = 0;
     plane.spread = robust_spread(difference);
   }

@@ -34,8 +34,8 @@ inline double biweight(double residual, double cutoff) {
   return std::abs(t) < 1 ? (1 - t * t) * (1 - t * t) : 0;
 }
 
-/// Cutoff of Tukey's biweight in standard deviations, and the variance of least squares over that
-/// of its fits to Gaussian residuals.
+/// Cutoff of Tukey's biweight in standard deviations, and its efficiency on Gaussian residuals:
+/// the variance of a least-squares fit over that of the biweight.
 inline constexpr double kBiweightReach = 4.685;
 inline constexpr double kBiweightEfficiency = 0.95;
 

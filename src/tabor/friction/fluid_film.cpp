@@ -130,7 +130,7 @@ class Solver {
   /// The film in the gap of `state`, and what follows from it.
   void flow(FluidFilmState& state) {
     ++state.convergence.iterations;
-    // Elsewhere the oil starts from its deposit again: where it went before must not matter.
+    // While errors are large, the oil starts from its deposit: where it went must not matter.
     const bool has_guess = state.convergence.certificate < kNear;
     const reynolds::PatchProblem patch = patch_of(state);
     state.film = has_guess ? steady_film(patch, problem_.film, state.film, told_)

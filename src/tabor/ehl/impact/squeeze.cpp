@@ -199,7 +199,7 @@ double zero_between(double t0, double v0, double t1, double v1) {
 bool follow(const SqueezeProblem& problem, const Roller& roller, Watch& watch,
             std::vector<SqueezeInstant>& history) {
   const double longest = longest_time(problem);
-  double share = 0;  // of the way to a closed gap, of which most of the time is spent
+  double share = 0;  // of the way to a closed gap, whose end takes most of the time
   while (history.back().time < longest) {
     if (!std::isfinite(history.back().force)) return false;
     const std::size_t n = history.size();

@@ -162,7 +162,9 @@ double Config::number(std::string_view key) const { return quantity(key, dimensi
 
 std::int64_t Config::integer(std::string_view key) const {
   const toml::node& node = find(table_->values, key, place(key));
-  if (!node.is_integer()) wrong(place(key), node, "a whole number");
+  if (!node.is_integer()) {
+    wrong(place(key), node, node.is_number() ? "a whole number in digits alone" : "a whole number");
+  }
   return node.as_integer()->get();
 }
 

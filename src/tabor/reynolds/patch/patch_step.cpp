@@ -151,8 +151,8 @@ class Step {
     return std::sqrt(scale);
   }
 
-  /// Until the residual is below `tolerance` of the flows or `reduction` of what it was. True where
-  /// it is.
+  /// Solves until the residual is below `tolerance` of the flows or `reduction` of what it was;
+  /// returns whether it is.
   bool solve_pressures(double tolerance, double reduction, Convergence& convergence) {
     FullCells system(cells_, balance_.kinds(), time_, unit_);
     VectorXd r;
