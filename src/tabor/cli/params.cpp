@@ -139,9 +139,6 @@ Measured try_measure(const Request& request, const std::string& file, const Cont
     Measured failed;
     failed.row.path = file;
     failed.row.failure = context.spelled(error.what());
-    if (failed.row.failure.find(file) == std::string::npos) {
-      failed.row.failure = file + ": " + failed.row.failure;
-    }
     failed.object = {{"scan", {{"path", file}, {"sha256", nullptr}}},
                      {"failure", failed.row.failure}};
     return failed;

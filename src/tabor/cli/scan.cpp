@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 #include <future>
+#include <utility>
 
 #include "tabor/cases/warnings.hpp"
 #include "tabor/cli/parameter_options.hpp"
@@ -125,11 +126,23 @@ Scan read_scan(const ScanRequest& request, const Context& context, const Observe
   return read_scan(scan::ScanFile(request.file, observer), request, context, observer);
 }
 
+namespace {
+
+/// Names the file in what its treatment rejects, as reading does.
+Topography treated(Topography surface, const ScanRequest& request, const Observer& observer) {
+  try {
+    return topography::apply(request.treatment, std::move(surface), observer);
+  } catch (const InputError& error) {
+    throw InputError(request.file + ": " + error.what());
+  }
+}
+
+}  // namespace
+
 Scan read_scan(const scan::ScanFile& file, const ScanRequest& request, const Context& context,
                const Observer& observer) {
   ScanDigest sha256(file);
-  Topography surface =
-      topography::apply(request.treatment, file.read(with_origin(request.read, context)), observer);
+  Topography surface = treated(file.read(with_origin(request.read, context)), request, observer);
   return {.surface = std::move(surface),
           .path = request.file,
           .sha256 = sha256.get(observer),

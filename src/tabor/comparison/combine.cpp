@@ -14,6 +14,7 @@
 #include "tabor/core/names.hpp"
 #include "tabor/core/units.hpp"
 #include "tabor/core/watch.hpp"
+#include "tabor/numerics/field_statistics.hpp"
 #include "tabor/topography/geometry.hpp"
 
 namespace tabor::comparison {
@@ -99,16 +100,8 @@ void find_shift(const topography::Topography& a, const topography::Topography& b
 /// What single precision, in which most files store heights, resolves of these about their mean
 /// [m].
 double resolution_of(const Field& height) {
-  const auto sums = sum_over_rows<2>(height.rows(), [&](Index y) {
-    const auto valid = !height.row(y).isNaN();
-    return Eigen::Array2d(valid.select(height.row(y), 0).sum(), static_cast<double>(valid.count()));
-  });
-  const double mean = sums[0] / sums[1];
-  const double largest = parallel_max(height.rows(), [&](Index begin, Index end) {
-    const auto part = (height.middleRows(begin, end - begin) - mean).abs();
-    return part.isNaN().select(0, part).maxCoeff();
-  });
-  return std::numeric_limits<float>::epsilon() * largest;
+  const numerics::FieldMoments moments = numerics::field_moments(height);
+  return std::numeric_limits<float>::epsilon() * std::max(moments.highest, -moments.lowest);
 }
 
 RobustPlane plane_of(const Field& difference, LevelMatch match) {
@@ -116,15 +109,12 @@ RobustPlane plane_of(const Field& difference, LevelMatch match) {
   RobustPlane plane = fit_robust_plane(difference);
   if (match == LevelMatch::offset) {
     // The robust mean: the height of the plane at the centre of the points, without its tilt.
-    const auto sums = sum_over_rows<3>(difference.rows(), [&](Index y) {
-      Eigen::Array3d row = Eigen::Array3d::Zero();
-      for (Index x = 0; x < difference.cols(); ++x) {
-        if (std::isnan(difference(y, x))) continue;
-        row += Eigen::Array3d(across(x, difference.cols()), across(y, difference.rows()), 1);
-      }
-      return row;
-    });
-    plane.offset += (plane.tilt_x * sums[0] + plane.tilt_y * sums[1]) / sums[2];
+    plane.offset +=
+        numerics::mean_over(difference.rows(), difference.cols(), [&](Index y, Index x) {
+          const double height = plane.tilt_x * across(x, difference.cols()) +
+                                plane.tilt_y * across(y, difference.rows());
+          return std::isnan(difference(y, x)) ? difference(y, x) : height;
+        });
     plane.tilt_x = plane.tilt_y = 0;
     plane.spread = robust_spread(difference);
   }
@@ -178,7 +168,6 @@ Combination combine(const topography::Topography& first, const topography::Topog
   Combination result;
   find_shift(a, b, options, result, observer);
   const Field moved = move_onto(b, a.grid, result.shift_x, result.shift_y);
-  const double resolution = std::max(resolution_of(a.height), resolution_of(moved));
   const CommonMoments moments = common_moments(a.height, moved);
   result.n_common = static_cast<Index>(moments.n);
   if (result.n_common < 9) {
@@ -192,6 +181,7 @@ Combination combine(const topography::Topography& first, const topography::Topog
   result.rms_a = std::sqrt(moments.variance_a);
   result.rms_b = std::sqrt(moments.variance_b);
   result.correlation = moments.covariance / (result.rms_a * result.rms_b);
+  const double resolution = std::max(resolution_of(a.height), resolution_of(moved));
   result.map = a;
   result.map.periodic = false;
   if (composite) {

@@ -53,9 +53,9 @@ Eigen::Matrix3d covariance_of_fit(const Mask& mask, LevelMatch level) {
 
 /// What the volumes of one map share.
 struct Noise {
-  double variance = 0;    ///< [m^2] of a pixel, times the number that vary together
-  bool is_held = true;    ///< by enough quiet pixels, or nothing was fitted
-  Eigen::Matrix3d plane;  ///< covariance_of_fit() to the quiet pixels
+  double variance = 0;        ///< [m^2] of a pixel, times the number that vary together
+  bool is_determined = true;  ///< the plane: by enough quiet pixels, or nothing was fitted
+  Eigen::Matrix3d plane;      ///< covariance_of_fit() to the quiet pixels
 };
 
 /// Variance of a sum over a region, whose part `quiet` the plane rests on: of its own noise, of the
@@ -64,7 +64,7 @@ struct Noise {
 Volume volume_of(const Region& region, const Region& quiet, const Noise& noise, double pixel_area) {
   const double n = region.plane[0];
   const double of_plane =
-      noise.is_held
+      noise.is_determined
           ? region.plane.dot(noise.plane * (region.plane / kBiweightEfficiency - 2 * quiet.plane))
           : n * n;
   const double n_varying = std::max(0.0, n + of_plane);
@@ -82,9 +82,10 @@ WearVolumes wear_volumes(const Field& loss, const Grid& grid, const LossOptions&
   const double pixel_area = grid.pixel_area();
   const Changes changes = find_changes(loss, grid, options.threshold, options.resolution);
   const double correlated = correlated_pixels(loss, grid, changes.quiet);
-  const Noise noise{.variance = changes.noise * changes.noise * correlated,
-                    .is_held = options.level == LevelMatch::none || changes.quiet.count() >= 9,
-                    .plane = covariance_of_fit(changes.quiet, options.level)};
+  const Noise noise{
+      .variance = changes.noise * changes.noise * correlated,
+      .is_determined = options.level == LevelMatch::none || changes.quiet.count() >= 9,
+      .plane = covariance_of_fit(changes.quiet, options.level)};
   WearVolumes result;
   result.threshold = changes.threshold;
   result.noise = changes.noise;
