@@ -45,7 +45,8 @@ constexpr Finish kLapped{.rms = 0.15 * kMicro, .longest = 20 * kMicro};
 constexpr Finish kPolished{.rms = 0.08 * kMicro, .longest = 40 * kMicro};
 
 /// Gaussian heights at the spacing of the paper's microscope.
-Field rough(const PointProblem& problem, const Finish& finish, bool turned = false) {
+Field rough(const PointProblem& problem, const Finish& finish, bool turned = false,
+            std::uint64_t seed = 1) {
   constexpr double spacing = 200 * kMicro / 255;
   synthesis::SelfAffine recipe;
   recipe.grid = {256, 256, 256 * spacing, 256 * spacing};
@@ -54,6 +55,7 @@ Field rough(const PointProblem& problem, const Finish& finish, bool turned = fal
   recipe.short_cutoff_wavelength = finish.shortest;
   recipe.random_amplitudes = true;
   recipe.stretch = finish.stretch;
+  recipe.seed = seed;
   Field height = synthesis::self_affine(recipe).height;
   if (turned) height = height.transpose().eval();
   return point_map(problem, {.height = height, .spacing_x = spacing, .spacing_y = spacing});
@@ -117,6 +119,20 @@ TEST(SolvePointMixed, DoesNotDependOnTheWay) {
   EXPECT_NEAR(measure_point(problem, back).friction_coefficient,
               measure_point(problem, cold).friction_coefficient, 1e-5);
   EXPECT_LE((back.film - cold.film).abs().maxCoeff(), 1e-3 * cold.film.mean());
+}
+
+/// Seven surfaces that solids touch and flow on, on a grid that a coarser one leads to.
+TEST(SolvePointMixed, TakesFewStepsOnFinerGrids) {
+  int iterations = 0;
+  for (const std::uint64_t seed : {1, 2, 3, 4, 5, 6, 7}) {
+    PointProblem problem = small_case(2, 113);
+    problem.roughness = rough(problem, kLapped, false, seed);
+    const PointResult result = solve_point(problem);
+    expect_conditions(problem, result);
+    EXPECT_GT(result.plastic_depth.maxCoeff(), 0);
+    iterations += result.convergence.iterations;
+  }
+  EXPECT_LE(iterations, 7 * 40);
 }
 
 TEST(SolvePointMixed, TendsToTheDryContactAsTheSpeedVanishes) {

@@ -9,7 +9,6 @@ namespace {
 
 constexpr double kThinnest = 0.1;  // a step may leave this much of a film
 constexpr double kThin = 10;       // films thinner than this many boundary films may touch at once
-constexpr double kTooThin = 0.3;   // of the boundary film: touches whatever the flow says
 constexpr double kMayGrow = 1.5;   // the norm of the residual, in a step that is taken
 
 }  // namespace

@@ -5,7 +5,7 @@
 namespace tabor::ehl {
 namespace {
 
-constexpr double kLinearAccuracy = 1e-3;  // of each Newton correction
+constexpr double kLinearAccuracy = 1e-2;  // of each Newton correction
 constexpr int kMaxProducts = 80;
 
 class Bordered {

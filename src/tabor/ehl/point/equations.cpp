@@ -24,9 +24,11 @@ PointFilm::Equations::Equations(const PointFilm& film, const PointConditions& co
   outcome_.convergence.tolerance = conditions.tolerance;
 }
 
-/// The film [m] that liquid flows through: where solids touch, the boundary film.
+/// The film [m] that liquid flows through: the boundary film where solids touch, and where they no
+/// longer do but still overlap.
 Field PointFilm::Equations::flowing_film() const {
-  return touching().select(film_.boundary_film_, state_.film);
+  const Mask closed = touching() || state_.film < kTooThin * film_.boundary_film_;
+  return closed.select(film_.boundary_film_, state_.film);
 }
 
 PointFlow PointFilm::Equations::flow_through(const Field& film) const {
@@ -50,6 +52,9 @@ PointFilm::Equations::Linear PointFilm::Equations::linearize() const {
   const Field film = flowing_film();
   Linear linear;
   linear.rows = point_balance(flow_through(film), storage_, film_.units_);
+  // Films thinner than what flows: their balance goes on along its tangent.
+  const Field lacking = touching().select(0, (state_.film - film) / film_.units_.film);
+  linear.rows.by_film.add_product(lacking, linear.rows.residual);
   linear.gain = -linear.rows.residual;
   linear.held = held();
   linear.deep = state_.nodes == PointNode::plastic;

@@ -28,6 +28,8 @@ class PointFilm::Equations {
   bool measure();
 
  private:
+  static constexpr double kTooThin = 0.3;  // of the boundary film: touches whatever the flow says
+
   /// Rows of flow or, where solids touch, of contact.
   struct Linear : PointLinear {
     Field gain;  // of liquid at every node: minus the imbalance of the flow

@@ -79,8 +79,7 @@ class PointFilm {
   /// Hertz' pressure, spread wider where the bodies are so stiff that the film is wider than their
   /// contact, and h00 such that the film is `min_film` [m] where it is thinnest.
   PointState hertz_start(double min_film) const;
-  /// A state of liquid and cavity alone of another grid of the same domain in half axes, between
-  /// its nodes.
+  /// A state of another grid of the same domain in half axes, between its nodes; nothing touches.
   PointState resampled(const PointState& state, const Grid& from) const;
   Field mass_of(const PointState& state) const;  ///< rho/rho0 h [m]
   /// True where node k = j nx + i lies off the border, where the pressure is given.

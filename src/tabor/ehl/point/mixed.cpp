@@ -13,7 +13,7 @@ namespace {
 
 using Outcome = PointFilm::Outcome;
 
-constexpr double kClearance = 2;        // film of a smooth start, in rms heights
+constexpr double kClearance = 1;        // film of a first speed, in rms heights
 constexpr double kBoundaryFilms = 5;    // ... or in boundary films
 constexpr double kFastest = 1e6;        // speed of a start over the one asked for, at most
 constexpr double kFilmExponent = 0.67;  // film ~ speed^0.67, Hamrock & Dowson 1977
@@ -23,10 +23,19 @@ constexpr double kShortest = 1.0 / 32;  // step over the first
 /// thicker by the ratio of densities, at most 1.35 by Dowson & Higginson.
 constexpr double kTouchingFilm = 1.5;
 
-/// The conditions of a film at another speed; sliding goes in proportion.
-PointConditions at_speed(const PointProblem& problem, PointConditions conditions, double speed) {
-  conditions.speed = speed;
-  conditions.sliding_speed = problem.sliding_speed * speed / problem.entrainment_speed;
+/// A problem at another speed; sliding goes in proportion.
+PointProblem at_speed(PointProblem problem, double speed) {
+  problem.sliding_speed *= speed / problem.entrainment_speed;
+  problem.entrainment_speed = speed;
+  return problem;
+}
+
+/// The conditions of a film at the speed of a problem and to its tolerance.
+PointConditions conditions_at(const PointProblem& problem, const PointFilm& film) {
+  PointConditions conditions = film.conditions();
+  conditions.speed = problem.entrainment_speed;
+  conditions.sliding_speed = problem.sliding_speed;
+  conditions.tolerance = problem.tolerance;
   return conditions;
 }
 
@@ -40,16 +49,16 @@ PointWay change_speed(const PointProblem& problem, const PointFilm& film, double
   return {.conditions_at =
               [&problem, &film, from, distance](double share) {
                 const double speed = from * std::exp(share * distance);
-                return at_speed(problem, film.conditions(), speed);
+                return conditions_at(at_speed(problem, speed), film);
               },
           .steps = steps_of(std::min(1.0, kLogStep / std::max(kLogStep, std::abs(distance))))};
 }
 
-/// From smooth bodies to those of the problem at a speed.
-PointWay roughen(const PointProblem& problem, const PointFilm& film, double speed) {
+/// From smooth bodies to those of the problem.
+PointWay roughen(const PointProblem& problem, const PointFilm& film) {
   return {.conditions_at =
-              [&problem, &film, speed](double share) {
-                PointConditions conditions = at_speed(problem, film.conditions(), speed);
+              [&problem, &film](double share) {
+                PointConditions conditions = conditions_at(problem, film);
                 if (problem.roughness.size() > 0) {
                   conditions.shape += (1 - share) * problem.roughness;
                 }
@@ -58,7 +67,8 @@ PointWay roughen(const PointProblem& problem, const PointFilm& film, double spee
           .steps = steps_of(1)};
 }
 
-/// u_m [m/s] at which the film of smooth bodies clears the roughness and the boundary film.
+/// u_m [m/s], not below that of the problem, at which a film of smooth bodies is as thick as the
+/// roughness is high and clears the boundary film.
 double clear_speed(const PointProblem& problem) {
   const double film = film_groups_of(problem).nijenbanning_central();
   const double rough = problem.roughness.size() == 0 ? 0 : numerics::rms_height(problem.roughness);
@@ -68,14 +78,11 @@ double clear_speed(const PointProblem& problem) {
   return problem.entrainment_speed * std::clamp(factor, 1.0, kFastest);
 }
 
-/// Smooth bodies at a speed; their pressure knows no cap.
-Outcome solve_smooth(const PointProblem& problem, double speed, PointState& state,
-                     const Observer& observer) {
+/// Smooth bodies; their pressure knows no cap.
+Outcome solve_smooth(const PointProblem& problem, PointState& state, const Observer& observer) {
   PointProblem smooth = problem;
   smooth.roughness.resize(0, 0);
   smooth.plastic_pressure = kNoPlasticLimit;
-  smooth.sliding_speed *= speed / problem.entrainment_speed;
-  smooth.entrainment_speed = speed;
   smooth.tolerance = std::max(problem.tolerance, kRoughly);
   PointFilm film(smooth);
   return solve_cold(smooth, film, state, observer);
@@ -90,16 +97,44 @@ PointState capped(const PointProblem& problem, const PointFilm& film, PointState
   return state;
 }
 
-Outcome solve_from_smooth(const PointProblem& problem, const PointFilm& film, PointState& state,
-                          const Observer& observer) {
-  const double first_speed = clear_speed(problem);
-  Outcome outcome = solve_smooth(problem, first_speed, state, observer);
+Outcome solve_rough(const PointProblem& problem, const PointFilm& film, PointState& state,
+                    const Observer& observer);
+
+/// From the film on a grid of twice the spacing, if there is one. Waves that it cannot hold are
+/// averaged out there.
+Outcome solve_nested(const PointProblem& problem, const PointFilm& film, PointState& state,
+                     const Observer& observer) {
+  const auto coarse = coarser(problem);
+  if (!coarse) return {};
+  const PointFilm coarse_film(*coarse, film.options());
+  const Outcome before = solve_rough(*coarse, coarse_film, state, observer);
+  if (!before.convergence.converged()) return before;
+  state = film.resampled(state, coarse_film.grid());
+  return before + film.solve(state, conditions_at(problem, film), {}, observer);
+}
+
+/// From coarser grids; where that fails, from smooth bodies whose roughness is raised.
+Outcome solve_rough(const PointProblem& problem, const PointFilm& film, PointState& state,
+                    const Observer& observer) {
+  Outcome outcome = solve_nested(problem, film, state, observer);
+  if (!outcome.convergence.failed()) return outcome;
+  outcome = outcome + solve_smooth(problem, state, observer);
   state = capped(problem, film, state);
   if (!outcome.convergence.converged()) return outcome;
-  outcome = outcome + follow(film, roughen(problem, film, first_speed), state, observer);
-  if (outcome.convergence.converged() && first_speed > problem.entrainment_speed) {
-    const PointWay slow = change_speed(problem, film, first_speed);
-    outcome = outcome + follow(film, slow, state, observer);
+  return outcome + follow(film, roughen(problem, film), state, observer);
+}
+
+/// At a speed whose film is not much thinner than the roughness is high, then down to that of the
+/// problem.
+Outcome slow_down(const PointProblem& problem, const PointFilm& film, PointState& state,
+                  const Observer& observer) {
+  const double first_speed = clear_speed(problem);
+  const bool is_slow = first_speed > problem.entrainment_speed;
+  PointProblem first = at_speed(problem, first_speed);
+  if (is_slow) first.tolerance = std::max(problem.tolerance, kRoughly);
+  Outcome outcome = solve_rough(first, film, state, observer);
+  if (is_slow && outcome.convergence.converged()) {
+    outcome = outcome + follow(film, change_speed(problem, film, first_speed), state, observer);
   }
   return outcome;
 }
@@ -171,7 +206,7 @@ PointResult solve_point_mixed(const PointProblem& problem, const PointResult* st
     speed = way.conditions_at(1).speed;
   }
   if (outcome.convergence.failed()) {
-    outcome = outcome + solve_from_smooth(problem, film, state, observer);
+    outcome = outcome + slow_down(problem, film, state, observer);
     speed = problem.entrainment_speed;
   }
   return mixed_result_of(problem, film, state, speed, outcome);

@@ -33,13 +33,10 @@ PointFilm::Outcome solve_from_hertz(const PointFilm& film, const PointConditions
 /// From the solution on a grid of twice the spacing, if there is one.
 PointFilm::Outcome solve_nested(const PointProblem& problem, const PointFilm& film,
                                 PointState& state, const Observer& observer) {
-  PointProblem coarse = problem;
-  coarse.nodes_x = (problem.nodes_x + 1) / 2;
-  coarse.nodes_y = (problem.nodes_y + 1) / 2;
-  coarse.tolerance = std::max(problem.tolerance, kRoughly);
-  if (std::min(coarse.nodes_x, coarse.nodes_y) < kCoarsest) return {};
-  const PointFilm coarse_film(coarse, film.options());
-  const PointFilm::Outcome before = solve_cold(coarse, coarse_film, state, observer);
+  const auto coarse = coarser(problem);
+  if (!coarse) return {};
+  const PointFilm coarse_film(*coarse, film.options());
+  const PointFilm::Outcome before = solve_cold(*coarse, coarse_film, state, observer);
   state = film.resampled(state, coarse_film.grid());
   if (!before.convergence.converged()) return before;
   return before + film.solve(state, film.conditions(), {}, observer);
@@ -84,6 +81,19 @@ PointFilm::Outcome operator+(const PointFilm::Outcome& before, PointFilm::Outcom
   now.convergence = after(before.convergence, now.convergence);
   now.n_linear_iterations += before.n_linear_iterations;
   return now;
+}
+
+std::optional<PointProblem> coarser(const PointProblem& problem) {
+  PointProblem coarse = problem;
+  coarse.nodes_x = (problem.nodes_x + 1) / 2;
+  coarse.nodes_y = (problem.nodes_y + 1) / 2;
+  coarse.tolerance = std::max(problem.tolerance, kRoughly);
+  if (std::min(coarse.nodes_x, coarse.nodes_y) < kCoarsest) return std::nullopt;
+  if (problem.roughness.size() > 0) {
+    const numerics::NodeTransfer transfer(point_grid(problem), point_grid(coarse));
+    coarse.roughness = transfer.mean(problem.roughness);
+  }
+  return coarse;
 }
 
 PointFilm::Outcome follow(const PointFilm& film, const PointWay& way, PointState& state,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 
 #include "tabor/ehl/point/film.hpp"
 #include "tabor/numerics/continuation.hpp"
@@ -12,6 +13,9 @@ namespace tabor::ehl {
 PointFilm::Outcome operator+(const PointFilm::Outcome& before, PointFilm::Outcome now);
 
 inline constexpr double kRoughly = 1e-2;  ///< tolerance where a solution is only a start
+
+/// The problem on a grid of twice the spacing, to be solved roughly; none where that is too coarse.
+std::optional<PointProblem> coarser(const PointProblem& problem);
 
 /// A way from the conditions of a film at hand, share 0, to those asked for, share 1.
 struct PointWay {
