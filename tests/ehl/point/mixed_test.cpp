@@ -331,6 +331,19 @@ TEST(SolvePointMixed, StopsAtAnyQuestion) {
       [&](const Observer& observer) { return solve_point_dry(problem, observer).convergence; });
 }
 
+TEST(SolvePointMixed, HasTheShapeOfItsGridWhereStoppedOnACoarserOne) {
+  PointProblem problem = small_case(2, 113);
+  problem.roughness = rough(problem, kLapped);
+  for (const int last : {2, 6, 12, 16}) {
+    int questions = 0;
+    const PointResult result =
+        solve_point(problem, nullptr, [&](const Progress&) { return ++questions < last; });
+    EXPECT_TRUE(result.convergence.stopped());
+    EXPECT_EQ(result.pressure.cols(), 113);
+    EXPECT_EQ(result.film.rows(), problem.nodes_y);
+  }
+}
+
 TEST(SolvePointMixed, RejectsABoundaryFilmOfNothing) {
   PointProblem problem = small_case(0.1);
   problem.asperities.boundary_film = 0;

@@ -99,18 +99,16 @@ PointState PointFilm::resampled(const PointState& state, const Grid& from) const
   const numerics::NodeTransfer transfer(grid_, from);
   const auto share_of = [&](const Mask& nodes) { return transfer.to_fine(nodes.cast<double>()); };
   PointState result{.pressure = transfer.to_fine(state.pressure),
-                    .plastic_depth = Field::Zero(grid_.ny, grid_.nx),
+                    .plastic_depth = {},
                     .separation = state.separation,
                     .film = {},
                     .nodes = nodes_of(share_of(state.nodes == PointNode::cavity) > kAllCavity)};
-  const Mask plastic = state.nodes.unaryExpr(&is_plastic);
-  if (plastic.any()) {
-    const Mask flows = share_of(plastic) > 0.5 && result.nodes == PointNode::liquid;
-    result.pressure = flows.select(plastic_pressure_, result.pressure);
-    result.plastic_depth = flows.select(transfer.to_fine(state.plastic_depth), 0);
-    result.nodes =
-        flows.select(PointNodes::Constant(grid_.ny, grid_.nx, PointNode::plastic), result.nodes);
-  }
+  const Mask flows =
+      share_of(state.nodes.unaryExpr(&is_plastic)) > 0.5 && result.nodes == PointNode::liquid;
+  result.pressure = flows.select(plastic_pressure_, result.pressure);
+  result.plastic_depth = flows.select(transfer.to_fine(state.plastic_depth), 0);
+  result.nodes =
+      flows.select(PointNodes::Constant(grid_.ny, grid_.nx, PointNode::plastic), result.nodes);
   result.film = film_of(result, conditions_.shape);
   return result;
 }

@@ -30,15 +30,6 @@ PointProblem at_speed(PointProblem problem, double speed) {
   return problem;
 }
 
-/// The conditions of a film at the speed of a problem and to its tolerance.
-PointConditions conditions_at(const PointProblem& problem, const PointFilm& film) {
-  PointConditions conditions = film.conditions();
-  conditions.speed = problem.entrainment_speed;
-  conditions.sliding_speed = problem.sliding_speed;
-  conditions.tolerance = problem.tolerance;
-  return conditions;
-}
-
 numerics::ContinuationSteps steps_of(double first) {
   return {.first = first, .smallest = kShortest * first, .keeps_end = true};
 }
@@ -49,7 +40,7 @@ PointWay change_speed(const PointProblem& problem, const PointFilm& film, double
   return {.conditions_at =
               [&problem, &film, from, distance](double share) {
                 const double speed = from * std::exp(share * distance);
-                return conditions_at(at_speed(problem, speed), film);
+                return conditions_of(at_speed(problem, speed), film);
               },
           .steps = steps_of(std::min(1.0, kLogStep / std::max(kLogStep, std::abs(distance))))};
 }
@@ -58,7 +49,7 @@ PointWay change_speed(const PointProblem& problem, const PointFilm& film, double
 PointWay roughen(const PointProblem& problem, const PointFilm& film) {
   return {.conditions_at =
               [&problem, &film](double share) {
-                PointConditions conditions = conditions_at(problem, film);
+                PointConditions conditions = conditions_of(problem, film);
                 if (problem.roughness.size() > 0) {
                   conditions.shape += (1 - share) * problem.roughness;
                 }
@@ -97,26 +88,10 @@ PointState capped(const PointProblem& problem, const PointFilm& film, PointState
   return state;
 }
 
-Outcome solve_rough(const PointProblem& problem, const PointFilm& film, PointState& state,
-                    const Observer& observer);
-
-/// From the film on a grid of twice the spacing, if there is one. Waves that it cannot hold are
-/// averaged out there.
-Outcome solve_nested(const PointProblem& problem, const PointFilm& film, PointState& state,
-                     const Observer& observer) {
-  const auto coarse = coarser(problem);
-  if (!coarse) return {};
-  const PointFilm coarse_film(*coarse, film.options());
-  const Outcome before = solve_rough(*coarse, coarse_film, state, observer);
-  if (!before.convergence.converged()) return before;
-  state = film.resampled(state, coarse_film.grid());
-  return before + film.solve(state, conditions_at(problem, film), {}, observer);
-}
-
 /// From coarser grids; where that fails, from smooth bodies whose roughness is raised.
 Outcome solve_rough(const PointProblem& problem, const PointFilm& film, PointState& state,
                     const Observer& observer) {
-  Outcome outcome = solve_nested(problem, film, state, observer);
+  Outcome outcome = solve_nested(problem, film, solve_rough, state, observer);
   if (!outcome.convergence.failed()) return outcome;
   outcome = outcome + solve_smooth(problem, state, observer);
   state = capped(problem, film, state);

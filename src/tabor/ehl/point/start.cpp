@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "tabor/core/units.hpp"
 #include "tabor/ehl/film.hpp"
@@ -30,16 +31,19 @@ PointFilm::Outcome solve_from_hertz(const PointFilm& film, const PointConditions
   return outcome;
 }
 
-/// From the solution on a grid of twice the spacing, if there is one.
-PointFilm::Outcome solve_nested(const PointProblem& problem, const PointFilm& film,
-                                PointState& state, const Observer& observer) {
-  const auto coarse = coarser(problem);
-  if (!coarse) return {};
-  const PointFilm coarse_film(*coarse, film.options());
-  const PointFilm::Outcome before = solve_cold(*coarse, coarse_film, state, observer);
-  state = film.resampled(state, coarse_film.grid());
-  if (!before.convergence.converged()) return before;
-  return before + film.solve(state, film.conditions(), {}, observer);
+/// The problem on a grid of twice the spacing, to be solved roughly; none where that is too coarse.
+/// Waves that it cannot hold are averaged out.
+std::optional<PointProblem> coarser(const PointProblem& problem) {
+  PointProblem coarse = problem;
+  coarse.nodes_x = (problem.nodes_x + 1) / 2;
+  coarse.nodes_y = (problem.nodes_y + 1) / 2;
+  coarse.tolerance = std::max(problem.tolerance, kRoughly);
+  if (std::min(coarse.nodes_x, coarse.nodes_y) < kCoarsest) return std::nullopt;
+  if (problem.roughness.size() > 0) {
+    const numerics::NodeTransfer transfer(point_grid(problem), point_grid(coarse));
+    coarse.roughness = transfer.mean(problem.roughness);
+  }
+  return coarse;
 }
 
 Warnings warnings_of(const PointProblem& problem, const PointResult& result) {
@@ -83,17 +87,24 @@ PointFilm::Outcome operator+(const PointFilm::Outcome& before, PointFilm::Outcom
   return now;
 }
 
-std::optional<PointProblem> coarser(const PointProblem& problem) {
-  PointProblem coarse = problem;
-  coarse.nodes_x = (problem.nodes_x + 1) / 2;
-  coarse.nodes_y = (problem.nodes_y + 1) / 2;
-  coarse.tolerance = std::max(problem.tolerance, kRoughly);
-  if (std::min(coarse.nodes_x, coarse.nodes_y) < kCoarsest) return std::nullopt;
-  if (problem.roughness.size() > 0) {
-    const numerics::NodeTransfer transfer(point_grid(problem), point_grid(coarse));
-    coarse.roughness = transfer.mean(problem.roughness);
-  }
-  return coarse;
+PointConditions conditions_of(const PointProblem& problem, const PointFilm& film) {
+  PointConditions conditions = film.conditions();
+  conditions.speed = problem.entrainment_speed;
+  conditions.sliding_speed = problem.sliding_speed;
+  conditions.tolerance = problem.tolerance;
+  return conditions;
+}
+
+PointFilm::Outcome solve_nested(const PointProblem& problem, const PointFilm& film,
+                                const PointSolver& solve_coarse, PointState& state,
+                                const Observer& observer) {
+  const auto coarse = coarser(problem);
+  if (!coarse) return {};
+  const PointFilm coarse_film(*coarse, film.options());
+  const PointFilm::Outcome before = solve_coarse(*coarse, coarse_film, state, observer);
+  state = film.resampled(state, coarse_film.grid());
+  if (!before.convergence.converged()) return before;
+  return before + film.solve(state, conditions_of(problem, film), {}, observer);
 }
 
 PointFilm::Outcome follow(const PointFilm& film, const PointWay& way, PointState& state,
@@ -108,7 +119,7 @@ PointFilm::Outcome follow(const PointFilm& film, const PointWay& way, PointState
 PointFilm::Outcome solve_cold(const PointProblem& problem, const PointFilm& film, PointState& state,
                               const Observer& observer) {
   const PointConditions& asked = film.conditions();
-  PointFilm::Outcome outcome = solve_nested(problem, film, state, observer);
+  PointFilm::Outcome outcome = solve_nested(problem, film, solve_cold, state, observer);
   if (outcome.convergence.failed()) {
     outcome = outcome + solve_from_hertz(film, asked, state, observer);
   }
@@ -126,7 +137,7 @@ PointFilm::Outcome solve_cold(const PointProblem& problem, const PointFilm& film
 
 PointState state_of(const PointFilm& film, const PointResult& result) {
   return film.resampled({.pressure = result.pressure,
-                         .plastic_depth = {},
+                         .plastic_depth = Field::Zero(result.grid.ny, result.grid.nx),
                          .separation = result.separation,
                          .film = result.film,
                          .nodes = nodes_of(result.pressure <= 0)},

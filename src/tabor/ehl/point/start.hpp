@@ -1,7 +1,6 @@
 #pragma once
 
 #include <functional>
-#include <optional>
 
 #include "tabor/ehl/point/film.hpp"
 #include "tabor/numerics/continuation.hpp"
@@ -14,8 +13,18 @@ PointFilm::Outcome operator+(const PointFilm::Outcome& before, PointFilm::Outcom
 
 inline constexpr double kRoughly = 1e-2;  ///< tolerance where a solution is only a start
 
-/// The problem on a grid of twice the spacing, to be solved roughly; none where that is too coarse.
-std::optional<PointProblem> coarser(const PointProblem& problem);
+/// The conditions of a film at the speeds of a problem and to its tolerance.
+PointConditions conditions_of(const PointProblem& problem, const PointFilm& film);
+
+/// Solves the film of a problem without a state to begin with.
+using PointSolver = std::function<PointFilm::Outcome(const PointProblem&, const PointFilm&,
+                                                     PointState&, const Observer&)>;
+
+/// Solves the film of a problem from the film that `solve_coarse` finds on a grid of twice the
+/// spacing; not converged where that grid would be too coarse.
+PointFilm::Outcome solve_nested(const PointProblem& problem, const PointFilm& film,
+                                const PointSolver& solve_coarse, PointState& state,
+                                const Observer& observer = {});
 
 /// A way from the conditions of a film at hand, share 0, to those asked for, share 1.
 struct PointWay {
