@@ -34,10 +34,10 @@ inline Expected rain_naively(const RandomCase& c) {
   return expected;
 }
 
-/// True if the fast engine reaches the same doses with the same levels, to the last bit.
-inline bool fast_engine_agrees(const RandomCase& c) {
+/// True if the fast engine, on these pools of the surface, reaches the same doses with the same
+/// levels, to the last bit.
+inline bool fast_engine_agrees(const RandomCase& c, Pools& pools) {
   const Expected expected = rain_naively(c);
-  Pools pools(c.terrain, Ties::connected);
   bool agrees = true;
   RainState last;
   const auto compare = [&](std::size_t i, const RainState& state) {
@@ -48,6 +48,11 @@ inline bool fast_engine_agrees(const RandomCase& c) {
   agrees &= last.n_droplets == expected.n_droplets;
   agrees &= c.terrain.edge != Edge::open || pools.beyond() == expected.lost;
   return agrees;
+}
+
+inline bool fast_engine_agrees(const RandomCase& c) {
+  Pools pools(c.terrain, Ties::connected);
+  return fast_engine_agrees(c, pools);
 }
 
 inline void expect_agreement(std::uint64_t first, std::uint64_t count, Pixel largest_side) {

@@ -79,7 +79,7 @@ TEST(FirstWettingDose, IsThatOfTheFirstFilmWhereHeightsAreEqual) {
   }
 }
 
-TEST(FirstWettingDose, TakesRisingDosesOfTheLimitAlone) {
+TEST(FirstWettingDose, TakesRisingDosesOfRainAlone) {
   const Field height = rough();
   const Mask where = Mask::Constant(height.rows(), height.cols(), true);
   const auto find = [&](const Dose& dose, const Mask& pixels) {
@@ -90,17 +90,18 @@ TEST(FirstWettingDose, TakesRisingDosesOfTheLimitAlone) {
     return Dose{.mean_films = std::move(films), .model = Model::limit};
   };
   EXPECT_THROW(find(limit({2e-7, 1e-7}), where), InputError);
-  EXPECT_THROW(find({.mean_films = {1e-7}, .model = Model::droplets}, where), InputError);
   EXPECT_THROW(find({.mean_films = {1e-7}, .model = Model::bottom_fill}, where), InputError);
   EXPECT_THROW(find(limit({1e-7}), Mask::Constant(1, 1, true)), InputError);
   EXPECT_THROW(find(limit(std::vector<double>(65536, 1e-7)), where), InputError);
 }
 
-/// How many pixels and films differ from those of runs of their own.
+/// How many films differ from those of a run of their own, and how many first doses from those of
+/// the limit alone.
 Index n_changed_together(const Field& height, const Grid& grid, const Dose& dose,
                          const Wetting& wetting) {
   Dose no_films = dose;
   no_films.mean_films.clear();
+  no_films.model = Model::limit;
   const std::vector<Film> alone = deposit(height, grid, dose);
   Index n = 0;
   std::size_t n_films = 0;
@@ -108,6 +109,7 @@ Index n_changed_together(const Field& height, const Grid& grid, const Dose& dose
     const Film& expected = alone[film.request];
     const bool is_same = (film.thickness == expected.thickness).all() &&
                          film.dosed_volume == expected.dosed_volume &&
+                         film.n_droplets == expected.n_droplets &&
                          film.lost_volume == expected.lost_volume;
     n += is_same ? 0 : 1;
     ++n_films;
@@ -118,19 +120,23 @@ Index n_changed_together(const Field& height, const Grid& grid, const Dose& dose
   return n;
 }
 
-// Doses of films below, between, at and above those of wetting, some of them twice.
+// Doses of films below, between, at and above those of wetting, some of them twice; surfaces whose
+// equal heights the two models take alike, and others.
 TEST(FirstWettingDose, IsTheSameWithFilmsInTheSameRun) {
-  Dose dose{.mean_films = {4e-7, 0, 1e-7, 5e-10, 1e-7, 3e-5}, .model = Model::limit};
+  Dose dose{.mean_films = {4e-7, 0, 1e-7, 5e-10, 1e-7, 3e-5}};
   const Wetting on_waves{{0, 1e-9, 1e-8, 1e-7, 3e-7, 3e-7, 1e-6, 2e-5},
                          Mask::Constant(kSide, kSide, true)};
   const Grid small{9, 7, 9e-6, 7e-6};
-  for (const Edge edge : {Edge::closed, Edge::periodic, Edge::open}) {
-    dose.edge = edge;
-    EXPECT_EQ(n_changed_together(rough(), kGrid, dose, on_waves), 0) << name(edge);
-    for (std::uint64_t seed = 0; seed < 200; ++seed) {
-      const Field height = steps(small, seed);
-      const Wetting wetting{on_waves.mean_films, height > 1e-7};
-      EXPECT_EQ(n_changed_together(height, small, dose, wetting), 0) << seed << ' ' << name(edge);
+  for (const Model model : {Model::limit, Model::droplets}) {
+    dose.model = model;
+    for (const Edge edge : {Edge::closed, Edge::periodic, Edge::open}) {
+      dose.edge = edge;
+      EXPECT_EQ(n_changed_together(rough(), kGrid, dose, on_waves), 0) << name(edge);
+      for (std::uint64_t seed = 0; seed < 200; ++seed) {
+        const Field height = steps(small, seed);
+        const Wetting wetting{on_waves.mean_films, height > 1e-7};
+        EXPECT_EQ(n_changed_together(height, small, dose, wetting), 0) << seed << ' ' << name(edge);
+      }
     }
   }
 }

@@ -53,7 +53,6 @@ WettingDoses doses_and_films(const topography::Topography& surface, const FilmSe
                              const Observer& observer) {
   WettingDoses doses{densities_for(surface, settings), {}};
   if (doses.lubricant_densities.empty() && laid.lubricant_densities.empty()) return doses;
-  laid.model = deposition::Model::limit;
   deposition::Wetting wetting{{}, where};
   for (const double density : doses.lubricant_densities) {
     wetting.mean_films.push_back(deposition::mean_film(density, settings.oil_density));
@@ -97,6 +96,7 @@ bool has_density_curve(const CaseSettings& settings) {
 WettingDoses wetting_doses(const topography::Topography& surface, const FilmSettings& settings,
                            const Mask& where, const Observer& observer) {
   FilmSettings no_films = settings;
+  no_films.model = deposition::Model::limit;
   no_films.lubricant_densities.clear();
   return doses_and_films(surface, settings, no_films, where, {}, observer);
 }

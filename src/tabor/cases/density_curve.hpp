@@ -48,7 +48,8 @@ bool has_density_curve(const CaseSettings& settings);
 WettingDoses wetting_doses(const topography::Topography& surface, const FilmSettings& settings,
                            const Mask& where, const Observer& observer = {});
 
-/// Finds those of all pixels in one run with the films of the settings, which are of Model::limit.
+/// Finds those of all pixels in one run with the films of the settings, which are of droplets or of
+/// their limit.
 WettingDoses wetting_doses(const topography::Topography& surface, const FilmSettings& settings,
                            const std::function<void(FilmRecord&&)>& receive,
                            const Observer& observer = {});

@@ -62,7 +62,6 @@ constexpr auto& kJobs = study::kFrictionJobs;
 constexpr std::array kTimedParts{
     TimedPart{kReading, "reading", "reading"},
     TimedPart{kJobs.of(study::FrictionJob::film), "rain", "rain"},
-    TimedPart{kJobs.of(study::FrictionJob::wetting_doses), "density_curve", "density curve"},
     TimedPart{kJobs.of(study::FrictionJob::contact), "contacts", "contacts"},
     TimedPart{kJobs.of(study::FrictionJob::trapped), "trapped", "trapped oil"},
     TimedPart{kJobs.of(study::FrictionJob::fluid), "flow", "flow"},

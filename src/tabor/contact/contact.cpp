@@ -156,7 +156,11 @@ Field unloaded_height(const Field& height, const State& state) {
   return height + state.gap.min(0.0);
 }
 
-Mask contact_mask(const Field& pressure) { return pressure.unaryExpr(&touches); }
+Mask contact_mask(const Field& pressure) {
+  Mask mask(pressure.rows(), pressure.cols());
+  for_each(mask.size(), [&](Index i) { mask(i) = touches(pressure(i)); });
+  return mask;
+}
 
 Mask contact_mask(const State& state) { return contact_mask(state.pressure); }
 

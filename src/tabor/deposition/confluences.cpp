@@ -8,6 +8,7 @@ namespace tabor::deposition {
 namespace {
 
 constexpr Slopes::Target kUnknown = std::numeric_limits<Slopes::Target>::min();
+constexpr Slopes::Target kAhead = 16;  // how many forks ahead pools are asked of the memory
 
 }  // namespace
 
@@ -16,14 +17,23 @@ Confluences::Confluences(const Slopes& slopes, const Pools& pools)
       pools_(pools),
       n_pools_(pools.count()),
       next_(pools.count() + slopes.n_forks(), kUnknown) {
-  const auto target = [&](std::size_t i) {
-    return i < n_pools_ ? static_cast<Target>(i) : ~static_cast<Target>(i - n_pools_);
-  };
-  for (std::size_t i = 0; i < next_.size(); ++i) {
-    go_on_or_throw(i);
-    explore(target(i));
+  const auto n_pools = static_cast<PoolId>(pools.count());
+  const auto n_forks = static_cast<Target>(slopes.n_forks());
+  for (Target number = 0; number < n_forks; ++number) {  // as they lie in memory, as their pools
+    go_on_or_throw(static_cast<std::size_t>(number));
+    if (number + kAhead < n_forks) prefetch_pools(~(number + kAhead));
+    explore(~number);
   }
-  for (std::size_t i = 0; i < next_.size(); ++i) last(target(i));
+  for (PoolId id = 0; id < n_pools; ++id) {
+    go_on_or_throw(static_cast<std::size_t>(id));
+    explore(id);
+  }
+  for (Target number = 0; number < n_forks; ++number) last(~number);
+  for (PoolId id = 0; id < n_pools; ++id) last(id);
+}
+
+void Confluences::prefetch_pools(Target fork) const {
+  for (const Slopes::Branch& branch : slopes_.branches(fork)) pools_.prefetch(branch.pool);
 }
 
 /// The end of the chain of places from `at`, with path compression.

@@ -41,6 +41,7 @@ class Confluences {
     return Slopes::is_pool(at) ? static_cast<std::size_t>(at) : n_pools_ + Slopes::place_of(at);
   }
   Target& next(Target at) { return next_[index(at)]; }
+  void prefetch_pools(Target fork) const;
   Target last(Target at);
   void explore(Target start);
   void enter(Target at);

@@ -85,19 +85,41 @@ class Deposition {
 
   void rain(const Observer& observer) {
     terrain_ = quantise(height_, dose_.edge);
-    const Ties ties = dose_.model == Model::droplets ? Ties::connected : Ties::ordered;
-    Pools pools(terrain_, ties);
-    release(terrain_.height);
-    const auto reached = [&](std::size_t i, const RainState& state) { emit(i, state, pools); };
     if (dose_.model == Model::droplets) {
-      rain_droplets(pools, droplet(), dose_.reading, dose_.seed, doses(terrain_.size()), reached,
-                    observer);
-    } else if (wetting_ == nullptr) {
-      rain_evenly(pools, doses(1), reached, observer);
+      rain_droplets(observer);
     } else {
-      rain_evenly(pools, doses(1), reached,
-                  {volumes(wetting_->mean_films, terrain_, 1), wetting_->where, first_}, observer);
+      rain_evenly(observer);
     }
+  }
+
+  void rain_droplets(const Observer& observer) {
+    Pools pools(terrain_, Ties::ordered);
+    release(terrain_.height);
+    if (wetting_ != nullptr) find_first_doses(pools, {}, {}, observer);
+    pools.connect_ties();
+    deposition::rain_droplets(pools, droplet(), dose_.reading, dose_.seed, doses(terrain_.size()),
+                              to_films(pools), observer);
+  }
+
+  void rain_evenly(const Observer& observer) {
+    Pools pools(terrain_, Ties::ordered);
+    release(terrain_.height);
+    if (wetting_ == nullptr) {
+      deposition::rain_evenly(pools, doses(1), to_films(pools), observer);
+    } else {
+      find_first_doses(pools, doses(1), to_films(pools), observer);
+    }
+  }
+
+  void find_first_doses(Pools& pools, const std::vector<Volume>& doses, const DoseReached& reached,
+                        const Observer& observer) {
+    deposition::rain_evenly(pools, doses, reached,
+                            {volumes(wetting_->mean_films, terrain_, 1), wetting_->where, first_},
+                            observer);
+  }
+
+  DoseReached to_films(Pools& pools) {
+    return [this, &pools](std::size_t i, const RainState& state) { emit(i, state, pools); };
   }
 
   void emit(std::size_t i, const RainState& state, Pools& pools) {

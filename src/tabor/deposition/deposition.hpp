@@ -91,9 +91,9 @@ struct Wetting {
 };
 
 /// Returns, row by row, the first dose that wets each pixel of `wetting.where`: its place in
-/// wetting.mean_films, or their number where none does and elsewhere. The films of `dose`, which
-/// may have none, are laid down in the same run. For the limit of small droplets alone. Throws as
-/// deposit().
+/// wetting.mean_films, or their number where none does and elsewhere. It is that of Model::limit.
+/// The films of `dose`, which may have none, are laid down in the same run, in droplets or as their
+/// limit. Throws as deposit().
 std::vector<std::uint16_t> first_wetting_doses(const Field& height, const Grid& grid,
                                                const Dose& dose, const Wetting& wetting,
                                                const FilmSink& sink, const Observer& observer = {});

@@ -44,10 +44,10 @@ void check(const Field& height, const Grid& grid, const Dose& dose) {
 
 void check(const Grid& grid, const Dose& dose, const Wetting& wetting) {
   constexpr auto most = std::numeric_limits<std::uint16_t>::max();
-  if (dose.model != Model::limit ||
-      !std::is_sorted(wetting.mean_films.begin(), wetting.mean_films.end())) {
+  const bool runs_down = dose.model == Model::droplets || dose.model == Model::limit;
+  if (!runs_down || !std::is_sorted(wetting.mean_films.begin(), wetting.mean_films.end())) {
     throw InputError("doses that wet a pixel first", std::string(name(dose.model)) + ", any order",
-                     "rising doses of the limit of small droplets", "");
+                     "rising doses of droplets or of their limit", "");
   }
   if (wetting.mean_films.size() > most) {
     throw InputError("doses that wet a pixel first", fmt::format("{}", wetting.mean_films.size()),

@@ -262,7 +262,8 @@ void rain_evenly(Pools& pools, const std::vector<Volume>& films, const DoseReach
                  const FirstWetting& wetting, const Observer& observer) {
   wetting.first.assign(static_cast<std::size_t>(pools.terrain().size()),
                        static_cast<std::uint16_t>(wetting.films.size()));
-  EvenRain(pools, joined(films, wetting.films), wetting).run(films, reached, observer);
+  const std::vector<Volume> all = joined(films, wetting.films);
+  if (!all.empty()) EvenRain(pools, all, wetting).run(films, reached, observer);
 }
 
 }  // namespace tabor::deposition

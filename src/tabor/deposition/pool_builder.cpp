@@ -8,7 +8,6 @@
 #include <array>
 #include <limits>
 #include <string>
-#include <unordered_map>
 #include <utility>
 
 namespace tabor::deposition {
@@ -75,19 +74,6 @@ std::size_t count_minima(const Terrain& terrain) {
   return static_cast<std::size_t>(deterministic_sum(terrain.size(), count));
 }
 
-/// What each of `all` is, at its new number, if it has one.
-template <typename Each>
-std::vector<Each> in_order(const std::vector<Each>& all, const std::vector<PoolId>& number,
-                           PoolId count) {
-  std::vector<Each> ordered;
-  reserve_large_pages(ordered, static_cast<std::size_t>(count));
-  ordered.resize(static_cast<std::size_t>(count));
-  for (std::size_t id = 0; id < number.size(); ++id) {
-    if (number[id] != kNoPool) ordered[static_cast<std::size_t>(number[id])] = all[id];
-  }
-  return ordered;
-}
-
 }  // namespace
 
 std::vector<Pixel> ascending_pixels(const Terrain& terrain) {
@@ -131,30 +117,18 @@ void PoolBuilder::build() {
   reserve_large_pages(to_.pools_, n_most);
   reserve_large_pages(to_.growth_, n_most);
   reserve_large_pages(into_, n_most);
-  if (terrain.edge == Edge::open) {
-    pool(new_pool(kDry)).area = 1;  // of the ocean: a droplet raises it by its own volume
-  }
-  for (std::size_t begin = 0; begin < ascending.size();) {
-    const Height height = to_.height(ascending[begin]);
-    std::size_t end = begin;
-    do {
-      go_on_or_throw(end);
-      prefetch_neighbours(ascending, end + kFar);
-      add(ascending[end++]);
-    } while (ties_ == Ties::connected && end < ascending.size() &&
-             to_.height(ascending[end]) == height);
-    settle_sites({&ascending[begin], end - begin});
-    begin = end;
+  if (terrain.edge == Edge::open) new_pool(kDry);  // the ocean
+  for (std::size_t i = 0; i < ascending.size(); ++i) {
+    go_on_or_throw(i);
+    prefetch_neighbours(ascending, i + kFar);
+    add(ascending[i]);
   }
   to_.last_ = grown(pool_at(0));
   release(into_);
-  forget_absorbed();
   go_on_or_throw();
-  number_by_place();
+  to_.growth_ = in_order(to_.growth_, to_.number_by_place(), to_.count());
   go_on_or_throw();
   make_arcs(ascending);
-  go_on_or_throw();
-  start_leaves();
 }
 
 PoolId PoolBuilder::grown(PoolId id) {
@@ -169,7 +143,6 @@ PoolId PoolBuilder::new_pool(Height base) {
   added.level = base;
   into_.push_back(id);
   to_.growth_.emplace_back();
-  is_absorbed_.push_back(false);
   return id;
 }
 
@@ -208,67 +181,14 @@ void PoolBuilder::add(Pixel p) {
   }
 }
 
-/// The pools in meeting_ become children of one pool whose lowest pixels are at `base`. With
-/// connected ties, a pool that itself begins at `base` is no child but a part of that one.
+/// The pools in meeting_ become children of a new one whose lowest pixel is at `base`.
 PoolId PoolBuilder::merge(Height base) {
-  PoolId into = kNoPool;
-  if (ties_ == Ties::connected) {
-    const auto same = std::find_if(meeting_.begin(), meeting_.end(),
-                                   [&](PoolId id) { return pool(id).level == base; });
-    into = same == meeting_.end() ? kNoPool : *same;
-  }
-  if (into == kNoPool) into = new_pool(base);
+  const PoolId into = new_pool(base);
   for (const PoolId id : meeting_) {
-    if (id != into) join(into, id, base);
-  }
-  return into;
-}
-
-void PoolBuilder::join(PoolId into, PoolId id, Height base) {
-  Pool& joining = pool(id);
-  joining.parent = into;
-  into_[static_cast<std::size_t>(id)] = into;
-  if (ties_ == Ties::connected && joining.level == base) {
-    growth(into).open_children += growth(id).open_children;
-    is_absorbed_[static_cast<std::size_t>(id)] = true;
-  } else {
+    pool(id).parent = into_[static_cast<std::size_t>(id)] = into;
     ++growth(into).open_children;
   }
-}
-
-/// Pixels at the height of a merge belong to the merged pool, even those added before it.
-void PoolBuilder::settle_sites(Group group) {
-  if (group.size() > 1) {
-    for (const Pixel p : group) pool_at(p) = grown(pool_at(p));
-  }
-}
-
-/// Children of absorbed pools get the absorbing one as parent.
-void PoolBuilder::forget_absorbed() {
-  for (Pool& child : to_.pools_) {
-    while (child.parent != kNoPool && is_absorbed(child.parent)) {
-      child.parent = pool(child.parent).parent;
-    }
-  }
-}
-
-/// Numbers pools in the order in which a walk along the rows meets them, so that pools of
-/// neighbouring pixels are neighbours in memory; absorbed pools, which no pixel belongs to, vanish.
-void PoolBuilder::number_by_place() {
-  std::vector<PoolId> number(to_.pools_.size(), kNoPool);
-  PoolId count = 0;
-  if (to_.terrain().edge == Edge::open) number[kOcean] = count++;
-  for (auto& site : to_.sites_) {
-    PoolId& renamed = number[static_cast<std::size_t>(site.pool)];
-    if (renamed == kNoPool) renamed = count++;
-    site.pool = renamed;
-  }
-  to_.last_ = number[static_cast<std::size_t>(to_.last_)];
-  to_.pools_ = in_order(to_.pools_, number, count);
-  to_.growth_ = in_order(to_.growth_, number, count);
-  for (Pool& each : to_.pools_) {
-    if (each.parent != kNoPool) each.parent = number[static_cast<std::size_t>(each.parent)];
-  }
+  return into;
 }
 
 void PoolBuilder::make_arcs(const std::vector<Pixel>& ascending) {
@@ -276,30 +196,22 @@ void PoolBuilder::make_arcs(const std::vector<Pixel>& ascending) {
   for (const auto& site : to_.sites_) ++growth(site.pool).next;
   std::int32_t begin = 0;
   for (Growth& each : to_.growth_) {
-    const std::int32_t size = each.next + 1;
-    each.next = begin;
-    begin += size;
+    each.rim = begin + each.next;
+    each.next = std::exchange(begin, each.rim + 1);
   }
   const auto n_places = static_cast<std::size_t>(begin);
   reserve_large_pages(to_.arcs_, n_places);
   to_.arcs_.resize(n_places);
-  to_.is_rim_.resize(n_places);
   fill_arcs(ascending);
-  begin = 0;
   for (std::size_t id = 0; id < to_.pools_.size(); ++id) {
-    Growth& each = to_.growth_[id];
     const PoolId parent = to_.pools_[id].parent;
-    const auto rim = static_cast<std::size_t>(each.next);
-    to_.arcs_[rim] = parent == kNoPool ? kNoRim : pool(parent).level;
-    to_.is_rim_[rim] = true;
-    each.next = std::exchange(begin, each.next + 1);
+    to_.arcs_[static_cast<std::size_t>(to_.growth_[id].rim)] =
+        parent == kNoPool ? kNoRim : pool(parent).level;
   }
 }
 
-/// Puts all heights in their places and finds the lowest pixels of all pools but leaves; with
-/// ordered ties that is always one.
+/// Puts all heights in their places and finds the lowest pixels of all pools but leaves.
 void PoolBuilder::fill_arcs(const std::vector<Pixel>& ascending) {
-  std::unordered_map<PoolId, std::vector<Pixel>> several;
   for (std::size_t i = 0; i < ascending.size(); ++i) {
     go_on_or_throw(i);
     prefetch_site(ascending, i + kNear);
@@ -307,39 +219,9 @@ void PoolBuilder::fill_arcs(const std::vector<Pixel>& ascending) {
     const auto& site = to_.sites_[static_cast<std::size_t>(p)];
     Growth& at = growth(site.pool);
     to_.arcs_[static_cast<std::size_t>(at.next++)] = site.height;
-    if (at.open_children == 0 || pool(site.pool).level != site.height) continue;
-    if (at.lowest == Growth::kNoPlace) {
-      at.lowest = p;
-    } else if (ties_ == Ties::connected) {
-      several[site.pool].push_back(p);
-    }
+    const bool is_saddle = at.open_children > 0 && at.lowest == Growth::kNoPlace;
+    if (is_saddle) at.lowest = p;
   }
-  for (const auto& [id, more] : several) {
-    std::int32_t& lowest = growth(id).lowest;
-    const Pixel first = std::exchange(lowest, ~static_cast<std::int32_t>(to_.saddles_.size()));
-    to_.saddles_.push_back(static_cast<Pixel>(more.size()) + 1);
-    to_.saddles_.push_back(first);
-    to_.saddles_.insert(to_.saddles_.end(), more.begin(), more.end());
-  }
-}
-
-/// Leaves hold liquid from the start; all other pools wait for their children. A leaf without
-/// height is full at once, and so may be what it becomes part of: which are leaves is said before
-/// the first begins.
-void PoolBuilder::start_leaves() {
-  const PoolId first = to_.terrain().edge == Edge::open ? kOcean + 1 : 0;
-  const auto count = static_cast<PoolId>(to_.pools_.size());
-  std::vector<PoolId> leaves;
-  for (PoolId id = 0; id < count; ++id) {
-    pool(id).owner = id;
-    if (growth(id).open_children > 0) {
-      pool(id).level = kDry;
-    } else if (id >= first) {
-      leaves.push_back(id);
-    }
-  }
-  to_.n_filling_ = static_cast<PoolId>(leaves.size());
-  for (const PoolId leaf : leaves) to_.take_in(leaf);
 }
 
 }  // namespace tabor::deposition

@@ -4,7 +4,7 @@
 
 #include "tabor/deposition/pools.hpp"
 
-// Builds the tree of pools of a surface from its sorted heights, by union-find.
+// Builds the tree of pools of a surface from its sorted heights, by union-find. Ties are ordered.
 namespace tabor::deposition {
 
 /// Returns all pixels, ascending in (height, pixel number). Radix sort; needs 16 bytes per pixel
@@ -16,35 +16,25 @@ std::vector<Pixel> ascending_pixels(const Terrain& terrain);
 /// union-find).
 class PoolBuilder {
  public:
-  PoolBuilder(Pools& result, Ties ties) : to_(result), ties_(ties) {}
+  explicit PoolBuilder(Pools& result) : to_(result) {}
   void build();
 
  private:
-  using Group = std::span<const Pixel>;  ///< pixels of equal height
-
   PoolId grown(PoolId id);  ///< what `id` has merged into so far
   void add(Pixel p);
   void prefetch_site(const std::vector<Pixel>& ascending, std::size_t place) const;
   void prefetch_neighbours(const std::vector<Pixel>& ascending, std::size_t place) const;
   PoolId new_pool(Height base);
   PoolId merge(Height base);
-  void join(PoolId into, PoolId id, Height base);
-  void settle_sites(Group group);
   void make_arcs(const std::vector<Pixel>& ascending);
   void fill_arcs(const std::vector<Pixel>& ascending);
-  void forget_absorbed();
-  void number_by_place();
-  void start_leaves();
   Pool& pool(PoolId id) { return to_.pools_[static_cast<std::size_t>(id)]; }
   Growth& growth(PoolId id) { return to_.growth_[static_cast<std::size_t>(id)]; }
-  bool is_absorbed(PoolId id) const { return is_absorbed_[static_cast<std::size_t>(id)]; }
   PoolId& pool_at(Pixel p) { return to_.sites_[static_cast<std::size_t>(p)].pool; }
 
   Pools& to_;
-  Ties ties_;
-  std::vector<PoolId> into_;       ///< per pool: itself, or a step towards what it has merged into
-  std::vector<PoolId> meeting_;    ///< pools around the pixel being added
-  std::vector<bool> is_absorbed_;  ///< per pool: turned out to be part of another
+  std::vector<PoolId> into_;     ///< per pool: itself, or a step towards what it has merged into
+  std::vector<PoolId> meeting_;  ///< pools around the pixel being added
 };
 
 }  // namespace tabor::deposition

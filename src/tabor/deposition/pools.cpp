@@ -5,11 +5,69 @@
 #include "tabor/core/large_pages.hpp"
 #include "tabor/core/parallel.hpp"
 #include "tabor/deposition/pool_builder.hpp"
+#include "tabor/deposition/tie_connector.hpp"
 
 namespace tabor::deposition {
 
-Pools::Pools(const Terrain& terrain, Ties ties) : terrain_(&terrain), ties_(ties) {
-  PoolBuilder(*this, ties).build();
+Pools::Pools(const Terrain& terrain, Ties ties) : terrain_(&terrain) {
+  PoolBuilder(*this).build();
+  if (ties == Ties::connected) TieConnector(*this).connect();
+  empty();
+}
+
+void Pools::connect_ties() {
+  TieConnector(*this).connect();
+  empty();
+}
+
+/// Leaves hold liquid from the start; all other pools wait for their children. A leaf without
+/// height is full at once, and so may be what it becomes part of: which are leaves is said before
+/// the first begins.
+void Pools::empty() {
+  const bool has_ocean = terrain_->edge == Edge::open;
+  const auto count = static_cast<PoolId>(pools_.size());
+  std::int32_t begin = 0;
+  for (PoolId id = 0; id < count; ++id) {
+    Growth& growth = growth_[static_cast<std::size_t>(id)];
+    growth.open_children = 0;
+    growth.next = std::exchange(begin, growth.rim + 1);
+    pools_[static_cast<std::size_t>(id)] = {.parent = (*this)[id].parent, .owner = id};
+  }
+  for (const Pool& child : pools_) {
+    if (child.parent != kNoPool) ++growth_[static_cast<std::size_t>(child.parent)].open_children;
+  }
+  std::vector<PoolId> leaves;
+  for (PoolId id = has_ocean ? kOcean + 1 : 0; id < count; ++id) {
+    if (waits(id)) continue;
+    pools_[static_cast<std::size_t>(id)].level = arc(growth(id).next);
+    leaves.push_back(id);
+  }
+  if (has_ocean) pools_[kOcean].area = 1;  // a droplet raises it by its own volume
+  n_filling_ = static_cast<PoolId>(leaves.size());
+  beyond_ = 0;
+  closed_.clear();
+  changed_.clear();
+  for (const PoolId leaf : leaves) take_in(leaf);
+}
+
+/// Numbers pools in the order in which a walk along the rows meets them, so that pools of
+/// neighbouring pixels are neighbours in memory; pools without pixels vanish. Returns the new
+/// numbers, by which their growth is still to be ordered.
+std::vector<PoolId> Pools::number_by_place() {
+  std::vector<PoolId> number(pools_.size(), kNoPool);
+  PoolId count = 0;
+  if (terrain_->edge == Edge::open) number[kOcean] = count++;
+  for (Site& site : sites_) {
+    PoolId& renamed = number[static_cast<std::size_t>(site.pool)];
+    if (renamed == kNoPool) renamed = count++;
+    site.pool = renamed;
+  }
+  last_ = number[static_cast<std::size_t>(last_)];
+  pools_ = in_order(pools_, number, static_cast<std::size_t>(count));
+  for (Pool& each : pools_) {
+    if (each.parent != kNoPool) each.parent = number[static_cast<std::size_t>(each.parent)];
+  }
+  return number;
 }
 
 void Pools::shorten(PoolId id, PoolId root) {
@@ -59,13 +117,14 @@ Volume Pools::volume_to(PoolId id, Height level) const {
   Volume volume = -pool.remainder;
   Volume area = pool.area;
   Height reached = pool.level;
-  auto next = static_cast<std::size_t>(growth(id).next);
-  for (Height stop = pool.stop; stop != kNoRim; stop = arcs_[next]) {
+  const std::int32_t rim = growth(id).rim;
+  std::int32_t next = growth(id).next;
+  for (Height stop = pool.stop; stop != kNoRim; stop = arc(next)) {
     const Height to = std::min(stop, level);
     volume += (Volume{to} - reached) * area;
-    if (to == level || is_rim_[next]) return volume;
+    if (to == level || next == rim) return volume;
     reached = stop;
-    for (; !is_rim_[next] && arcs_[next] == stop; ++next) ++area;
+    for (; next < rim && arc(next) == stop; ++next) ++area;
   }
   return volume + 1;
 }
@@ -77,11 +136,11 @@ void Pools::take_in(PoolId id) {
   while (true) {
     Pool& pool = pools_[static_cast<std::size_t>(id)];
     Growth& growth = growth_[static_cast<std::size_t>(id)];
-    auto next = static_cast<std::size_t>(growth.next);
-    while (!is_rim_[next] && arcs_[next] == pool.level) ++next;
-    pool.area += static_cast<std::int32_t>(next) - growth.next;
-    growth.next = static_cast<std::int32_t>(next);
-    pool.stop = arcs_[next];
+    std::int32_t next = growth.next;
+    while (next < growth.rim && arc(next) == pool.level) ++next;
+    pool.area += next - growth.next;
+    growth.next = next;
+    pool.stop = arc(next);
     if (!pool.full() || !fill_up(id)) return;
     id = pool.parent;
   }

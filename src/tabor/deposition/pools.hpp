@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "tabor/core/large_pages.hpp"
 #include "tabor/deposition/terrain.hpp"
 
 // Stores the depressions of a surface as a tree (depression hierarchy) with the liquid in them.
@@ -17,7 +18,7 @@ inline constexpr PoolId kNoPool = -1;
 inline constexpr Pixel kSeveral = -1;
 inline constexpr PoolId kOcean = 0;  ///< of an open edge: lies below everything and never fills
 
-/// Treatment of neighbouring pixels of equal height.
+/// Treatment of pixels of equal height.
 enum class Ties {
   connected,  ///< equal neighbours are one place (the rule of the droplets)
   ordered     ///< a lower pixel number counts as lower: no two heights are ever equal
@@ -39,7 +40,7 @@ struct alignas(32) Pool {
   Height stop = kNoRim;     ///< where it next takes in pixels, or its rim
   std::int32_t area = 0;    ///< pixels under or at the level; before it is active, of full children
   std::int32_t remainder = 0;  ///< liquid above the level, less than one quantum over the area
-  FlowPath overflow;           ///< when it is full: where the overflow ran last
+  FlowPath overflow = {};      ///< when it is full: where the overflow ran last
 
   /// True where the pool holds liquid. Not defined for the ocean, whose level lies below
   /// everything.
@@ -54,6 +55,7 @@ struct alignas(32) Pool {
 struct Growth {
   std::int32_t open_children = 0;  ///< that are not full
   std::int32_t next = 0;           ///< the first pixel not taken in yet, among the arcs
+  std::int32_t rim = 0;            ///< behind its last pixel, among the arcs
   std::int32_t lowest = kNoPlace;  ///< its lowest pixel, where its children meet, or the complement
                                    ///< of the place of several; of a leaf kNoPlace
   static constexpr std::int32_t kNoPlace = std::numeric_limits<std::int32_t>::min();
@@ -66,6 +68,12 @@ class Pools {
  public:
   /// `terrain` must outlive the pools, but its heights are copied and may be released.
   Pools(const Terrain& terrain, Ties ties);
+
+  /// Removes all liquid. Not after renumber(), which removes pools.
+  void empty();
+
+  /// Empties pools with ordered ties and connects the ties: faster than to build them anew.
+  void connect_ties();
 
   const Terrain& terrain() const { return *terrain_; }
   std::size_t count() const { return pools_.size(); }
@@ -151,6 +159,7 @@ class Pools {
 
  private:
   friend class PoolBuilder;
+  friend class TieConnector;
 
   /// Height and pool stand together because they are read together, in random order.
   struct Site {
@@ -164,12 +173,15 @@ class Pools {
     return (*this)[pool.parent].active() ? pool.parent : id;
   }
   const Growth& growth(PoolId id) const { return growth_[static_cast<std::size_t>(id)]; }
+  /// Where the heights of a pool begin among the arcs.
+  std::int32_t first_arc(PoolId id) const { return id == 0 ? 0 : growth(id - 1).rim + 1; }
+  Height arc(std::int32_t place) const { return arcs_[static_cast<std::size_t>(place)]; }
+  std::vector<PoolId> number_by_place();
   void shorten(PoolId id, PoolId root);
   void take_in(PoolId id);
   bool fill_up(PoolId id);
 
   const Terrain* terrain_;
-  Ties ties_;
   PoolId last_ = kNoPool;  ///< the one that holds all others
   PoolId n_filling_ = 0;   ///< active pools that are not full, the ocean not counted
   std::vector<Pool> pools_;
@@ -178,10 +190,22 @@ class Pools {
   std::vector<PoolId> changed_;  ///< see take_changed()
   std::vector<Site> sites_;
   std::vector<Height> arcs_;  ///< heights of the pixels of each pool alone, ascending, and its rim
-  std::vector<bool> is_rim_;  ///< per place in arcs_
   std::vector<Pixel> saddles_;  ///< saddles of several pixels: their number, then the pixels
   Volume beyond_ = 0;
   std::int64_t n_steps_ = 0;
 };
+
+/// Returns what each of `all` is, at its new number, where it has one.
+template <typename Each>
+std::vector<Each> in_order(const std::vector<Each>& all, const std::vector<PoolId>& number,
+                           std::size_t count) {
+  std::vector<Each> ordered;
+  reserve_large_pages(ordered, count);
+  ordered.resize(count);
+  for (std::size_t id = 0; id < number.size(); ++id) {
+    if (number[id] != kNoPool) ordered[static_cast<std::size_t>(number[id])] = all[id];
+  }
+  return ordered;
+}
 
 }  // namespace tabor::deposition

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "tabor/core/rows.hpp"
 
@@ -31,12 +32,17 @@ Field without_rounding(Field rest, double magnitude);
 template <typename OfPixel>
 double mean_over(Index n_rows, Index n_columns, const OfPixel& of_pixel) {
   const auto sums = sum_over_rows<2>(std::max<Index>(0, n_rows), [&](Index y) {
-    Eigen::Array2d row = Eigen::Array2d::Zero();
-    for (Index x = 0; x < n_columns; ++x) {
-      const double value = of_pixel(y, x);
-      if (!std::isnan(value)) row += Eigen::Array2d(value, 1);
+    // All values first, so that they are vectorised.
+    std::vector<double> values(static_cast<std::size_t>(std::max<Index>(0, n_columns)));
+    for (Index x = 0; x < n_columns; ++x) values[static_cast<std::size_t>(x)] = of_pixel(y, x);
+    double row = 0;
+    double n = 0;
+    for (const double value : values) {
+      const bool counts = !std::isnan(value);
+      row += counts ? value : 0;
+      n += counts ? 1 : 0;
     }
-    return row;
+    return Eigen::Array2d(row, n);
   });
   return sums[1] > 0 ? sums[0] / sums[1] : std::numeric_limits<double>::quiet_NaN();
 }

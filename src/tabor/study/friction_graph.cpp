@@ -90,13 +90,11 @@ struct FrictionGraph::Shared {
     return operators.borrow(settings().contact, grid);
   }
 
-  /// One tree of pools serves the films and the doses where both are of the limit.
-  bool finds_doses_with_films() const { return settings().film.model == deposition::Model::limit; }
-
+  /// Films and doses in one run: they share a tree of pools.
   void lay_films(bool has_wet_shares, const engine::Monitor& monitor) {
     const auto surface = store->surface(monitor);
     store->store_films(surface, [&](const auto& receive) {
-      if (has_wet_shares && finds_doses_with_films()) {
+      if (has_wet_shares) {
         doses = cases::wetting_doses(*surface, settings().film, receive, monitor.own);
       } else {
         cases::film_state(*surface, settings().film, receive, monitor.own);
@@ -235,8 +233,7 @@ void FrictionGraph::add_rain(bool has_wet_shares) {
       job_of({FrictionJob::wetting_doses},
              [shared = shared_](const engine::Monitor& m) { shared->find_doses(m); });
   doses.is_serial = true;
-  const bool waits = shared_->finds_doses_with_films();
-  doses_ = add(std::move(doses), waits ? std::vector{film_} : std::vector<std::size_t>());
+  doses_ = add(std::move(doses), {film_});
 }
 
 void FrictionGraph::add_contact(std::size_t pressure, const std::vector<std::size_t>& needs) {

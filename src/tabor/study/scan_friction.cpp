@@ -169,13 +169,16 @@ std::size_t n_waiting(const Grid& grid, bool maps_are_kept) {
   return std::max<std::size_t>(2, available_memory_bytes() / 4 / std::max<std::size_t>(1, bytes));
 }
 
-/// Computes rain and contacts on a quarter of the pixels.
+/// Computes rain and contacts on a quarter of the pixels. Droplets rain as their limit: it is
+/// closer to them than the pixel sizes are to each other.
 CoarsePixels coarse_pixels(const topography::Topography& surface,
                            const cases::CaseSettings& settings, const Observer& observer) {
   const Grid& grid = surface.grid;
   const topography::Topography coarse = topography::apply(
       {fmt::format("resample={},{}", grid.nx / 2, grid.ny / 2)}, surface, observer);
-  const auto films = cases::film_state(coarse, settings.film, observer);
+  cases::FilmSettings rain = settings.film;
+  if (rain.model == deposition::Model::droplets) rain.model = deposition::Model::limit;
+  const auto films = cases::film_state(coarse, rain, observer);
   CoarsePixels result{coarse.grid.dx(), {}};
   const auto receive = [&](const cases::ContactRecord& contact) {
     const Mask touching = contact::contact_mask(contact.state);

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <vector>
+
+#include "tabor/deposition/pools.hpp"
+
+namespace tabor::deposition {
+
+/// Makes pools with connected ties of pools with ordered ties.
+///
+/// Where ties are ordered, a pool that meets others at several saddles of one height merges at one
+/// after the other, and the pools between have no height: they begin at their rims. Where ties are
+/// connected, such a pool is part of the one above, and so are the pixels at the rim of any pool.
+class TieConnector {
+ public:
+  explicit TieConnector(Pools& pools);
+
+  /// Leaves the liquid and the open children of the pools undefined: Pools::empty() follows.
+  void connect();
+
+ private:
+  static std::size_t place(PoolId id) { return static_cast<std::size_t>(id); }
+  bool has_height(PoolId id) const;
+  PoolId with_height(PoolId id);
+  void move_pixels();
+  void move_children();
+  void make_arcs(const std::vector<PoolId>& number);
+  void find_bottoms();
+  void list_bottoms();
+
+  Pools& to_;
+  std::vector<PoolId> into_;  ///< per pool: itself where it has height, or a step up to such a one
+  std::vector<std::int32_t> n_moved_;  ///< per pool: pixels that it takes from the pools below it
+};
+
+}  // namespace tabor::deposition
