@@ -11,7 +11,7 @@ import numpy as np
 from ._records import Warning
 
 #: Switches, which files hold as 0 and 1.
-_SWITCHES = ("converged", "_valid", "flooded", "_at_bound", "_settled")
+_SWITCHES = ("converged", "_valid", "flooded", "_at_bound", "_settled", "gap_closing_at_turning")
 #: Attributes that describe the file and not the result.
 _OF_THE_FILE = ("NX_class", "axes", "signal", "DIMENSION_LIST", "REFERENCE_LIST", "CLASS", "NAME")
 #: " (2 of 6 cases", which begins what a warning of several states ends in.

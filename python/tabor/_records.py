@@ -63,7 +63,9 @@ def _with_code(warning: Any) -> str:
 
 
 def with_unit(value: float, unit: str) -> str:
-    """A number as text: densities of oil in g/m² and masses in kg as they are, others in the multiple that suits them."""
+    """A switch as yes or no, a number as text: densities of oil in g/m² and masses in kg as they are, others in the multiple that suits them."""
+    if isinstance(value, bool):
+        return "yes" if value else "no"
     if not unit:
         return f"{value:.4g}"
     return f"{value:.4g} {unit}" if unit in ("g/m²", "kg") else _tabor.format_si(value, unit)

@@ -59,6 +59,14 @@ def test_a_template_is_a_case_and_so_are_its_keys(name):
     assert tomllib.loads(again.toml) == tomllib.loads(case.toml)
 
 
+def test_a_loaded_solution_shows_its_switches_as_words(file, tmp_path):
+    pytest.importorskip("h5py")
+    tb.ehl.squeeze(file).solve().save(tmp_path / "a.h5")
+    facts = dict(tb.load(tmp_path / "a.h5").facts)
+    assert facts["converged"] == "yes"
+    assert not {"0", "1"} & {text for heading, text in facts.items() if "turning" in heading}
+
+
 def test_its_file_is_that_of_the_command_line(program, file, tmp_path):
     h5py = pytest.importorskip("h5py")
     subprocess.run([program, "ehl", "squeeze", file, "-o", tmp_path / "a.h5"], capture_output=True, check=True)

@@ -102,6 +102,10 @@ TEST(EhlLine, RejectsWithTheReason) {
   };
   rejected("cylinder.load_per_length=5e9 N/m", "load of a line contact");
   rejected("grid.nodes=20", "more nodes");
+  rejected("wear.steps=3", "wear.steps: got without wear.coefficient");
+  rejected("wear.track_length=1m", "without wear.coefficient");
+  rejected("roughness.row=1", "without roughness.file");
+  rejected("film.penalty=10", "without film.cavitation");
   rejected("grid.outlet=50um", "domain");
   rejected("lubricant.viscosity=-1 Pa s", "above zero");
   rejected("lubricant.pressure_viscosity=5e-5 1/Pa", "viscosity");

@@ -97,6 +97,9 @@ TEST(Config, NamesTheLineOfAnUnknownKeyAndItsNearestMatch) {
   EXPECT_THAT(message_of([&] { misspelt.reject_unknown(known); }),
               HasSubstr("study.toml:3: unknown key 'material.young_modulus'; did you mean "
                         "'material.youngs_modulus'?"));
+  const Config of_table = Config::parse("material = 'steel'\n[sweep]\non = 1\n", "study.toml");
+  EXPECT_THAT(message_of([&] { of_table.reject_unknown(known); }),
+              HasSubstr("study.toml:1: unknown key 'material'; did you mean 'material."));
   const Config in_array = Config::parse("[[scan]]\nfiel = 'a'\n", "study.toml");
   EXPECT_THAT(message_of([&] { in_array.reject_unknown(known); }),
               HasSubstr("study.toml:2: unknown key 'scan[].fiel'; did you mean 'scan[].file'?"));

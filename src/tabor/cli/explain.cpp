@@ -53,8 +53,9 @@ int explain(const Words& words, Context& context) {
   if (entry == nullptr) {
     Words codes;
     for (const cases::CodeEntry& one : cases::all_codes()) codes.emplace_back(one.code);
-    throw UsageError(fmt::format("{}: got '{}'; expected the code of a warning: {}{}", kExplain,
-                                 code, fmt::join(codes, ", "), suggestion(code, codes)));
+    throw UsageError(fmt::format("{}: got '{}'; expected the code of a warning, such as {}; "
+                                 "docs/warnings.md lists all{}",
+                                 kExplain, code, codes.front(), suggestion(code, codes)));
   }
   io::Json object = json_head(context);
   object.update({{"code", entry->code},

@@ -48,6 +48,10 @@ double power_law(double q, const Corners& corners, double hurst, double unit) {
 void check_recipe(const SelfAffine& recipe) {
   check_grid(recipe.grid, "self-affine surface");
   check_settings(recipe);
+  if (recipe.roll_off_wavelength > 0) {
+    check_two_pixels("self-affine surface", "a roll-off wavelength", recipe.roll_off_wavelength,
+                     std::min(recipe.grid.dx(), recipe.grid.dy()));
+  }
   check_height("waves of the rms slope",
                recipe.rms_slope.value_or(0) * std::max(recipe.grid.lx, recipe.grid.ly) / (2 * pi));
 }

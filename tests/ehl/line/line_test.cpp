@@ -420,7 +420,8 @@ INSTANTIATE_TEST_SUITE_P(
                               p.lubricant.viscosity = material::barus_viscosity(0.3638, 5e-5);
                             }}));
 
-/// Steel on steel in oil: U = 1e-11, G = 5000, and W as given.
+/// Steel on steel in oil: U = 1e-11, G = 5000, and W as given. The inlet is short, so that nodes
+/// lie close at the spike.
 LineProblem with_spike(double load_group, Index nodes) {
   LineProblem problem;
   problem.radius = 0.01;
@@ -430,6 +431,8 @@ LineProblem with_spike(double load_group, Index nodes) {
   problem.lubricant.viscosity = material::roelands_viscosity(0.05, 5000 / 2.2e11);
   problem.lubricant.density = material::relative_density(material::DensityLaw::dowson_higginson);
   problem.nodes = nodes;
+  problem.inlet = 4 * hertz_of(problem).half_width +
+                  10 * std::sqrt(2 * problem.radius * film_groups_of(problem).moes_min_film());
   return problem;
 }
 
@@ -454,6 +457,29 @@ TEST(SolveLine, TakesAResolvedSpikeForItsLargestPressure) {
   EXPECT_GT(result.max_pressure, 1.2 * hertz);  // that of the spike
   EXPECT_EQ(result.max_pressure_before_spike, result.max_pressure);
   EXPECT_FALSE(names_the_spike(result));
+}
+
+TEST(SolveLine, TakesTheLargestPressureWhereNoValleyPartsItFromTheInlet) {
+  LineProblem problem = with_spike(1e-5, 1800);
+  problem.inlet *= 2;
+  const LineResult result = solve_line(problem);
+  EXPECT_EQ(result.max_pressure_before_spike, result.max_pressure);
+}
+
+/// Film of a stiff cylinder under a light load; `inlet` [m], 0 for the usual one.
+double film_of_stiff_cylinder(double inlet, Index nodes) {
+  LineProblem problem = table_6();
+  problem.lubricant.viscosity = material::constant_viscosity(0.3638);
+  problem.load = 5;
+  problem.nodes = nodes;
+  problem.inlet = inlet;
+  return solve_line(problem).min_film;
+}
+
+TEST(SolveLine, HasAnInletAsLongAsTheFilmOfAStiffCylinderNeeds) {
+  const double length = std::sqrt(2 * table_6().radius * 7e-6);
+  EXPECT_NEAR(film_of_stiff_cylinder(0, 1200) / film_of_stiff_cylinder(120 * length, 4800), 1,
+              4e-3);
 }
 
 }  // namespace

@@ -175,7 +175,7 @@ Parameters<LineSettings> film_parameters() {
                .example = "1 mm",
                .dimension = dimension::length,
                .bounds = kAboveZero,
-               .absent = "4 half widths and 10 sqrt(2 R h), h by Moes"},
+               .absent = "4 half widths and 10 sqrt(2 R h), at least 30 sqrt(2 R h), h by Moes"},
               &Settings::inlet),
           One({.name = "grid.outlet",
                .help = "behind it",
@@ -199,9 +199,39 @@ const Parameters<LineSettings>& line_parameters() {
   return all;
 }
 
+namespace {
+
+/// Throws InputError for a key that means nothing without another one.
+void reject_idle_keys(const io::Config& file) {
+  struct Key {
+    const char* name;
+    const char* needed;
+  };
+  constexpr Key keys[] = {{"roughness.width", "roughness.height"},
+                          {"roughness.place", "roughness.height"},
+                          {"roughness.wavelength", "roughness.amplitude"},
+                          {"roughness.row", "roughness.file"},
+                          {"wear.track_length", "wear.coefficient"},
+                          {"wear.stroke", "wear.coefficient"},
+                          {"wear.steps", "wear.coefficient"},
+                          {"wear.cycles", "wear.coefficient"},
+                          {"wear.cycles_each", "wear.coefficient"},
+                          {"wear.density", "wear.coefficient"},
+                          {"wear.width", "wear.coefficient"},
+                          {"wear.wave_amplitude", "wear.coefficient"},
+                          {"wear.waves", "wear.wave_amplitude"},
+                          {"film.penalty", "film.cavitation"}};
+  for (const Key& key : keys) {
+    if (file.has(key.name) && !file.has(key.needed)) reject_without(file, key.name, key.needed);
+  }
+}
+
+}  // namespace
+
 LineSettings read_line_settings(const io::Config& file) {
   LineSettings settings;
   read_settings(file, line_parameters(), settings);
+  reject_idle_keys(file);
   return settings;
 }
 

@@ -140,7 +140,10 @@ Eigen::ArrayXd line_nodes(const LineProblem& problem) {
   const double half_width = hertz_of(problem).half_width;
   const double film = film_groups_of(problem).moes_min_film();
   const double rigid = std::sqrt(2 * problem.radius * film);
-  const double inlet = problem.inlet > 0 ? problem.inlet : 4 * half_width + 10 * rigid;
+  // Pressure reaches far before a rigid cylinder: 10 lengths would lose 2.3 % of the film, 30 lose
+  // 0.3 %.
+  const double usual = std::max(4 * half_width + 10 * rigid, 30 * rigid);
+  const double inlet = problem.inlet > 0 ? problem.inlet : usual;
   const double outlet = problem.outlet > 0 ? problem.outlet : 1.5 * half_width + 3 * rigid;
   return Eigen::ArrayXd::LinSpaced(problem.nodes, -inlet, outlet);
 }

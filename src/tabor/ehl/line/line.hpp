@@ -32,7 +32,8 @@ struct LineProblem {
   LineCavitation cavitation = LineCavitation::reynolds;
   double penalty = 1e6;  ///< 1/eps in units of u_m over the pressure of Hertz
   Index nodes = 1200;
-  double inlet = 0;   ///< [m] before the centre; 0: 4 half widths and 10 sqrt(2 R h), h by Moes
+  double inlet = 0;   ///< [m] before the centre; 0: 4 half widths and 10 sqrt(2 R h), at least
+                      ///< 30 sqrt(2 R h), h by Moes
   double outlet = 0;  ///< [m] behind it; 0: 1.5 half widths and 3 sqrt(2 R h)
   Eigen::ArrayXd roughness;  ///< s [m] at the nodes, asperities up, at rest; empty: smooth
   /// No boundary film: nothing touches. Liquid goes on through it, as in a real contact it goes

@@ -256,7 +256,7 @@ namespace {
 std::string last_part(const std::string& path) { return split(path, '.').back(); }
 
 /// A known key whose last part is that of `path`, or holds it or is held by it; in the same table
-/// rather than in another. Empty if there is none.
+/// rather than in another; or the first key of a table of this name. Empty if there is none.
 std::string namesake(const std::string& path, const std::vector<std::string>& known) {
   const std::string name = last_part(path);
   const std::string table = path.substr(0, path.size() - name.size());
@@ -268,7 +268,8 @@ std::string namesake(const std::string& path, const std::vector<std::string>& kn
         std::min(name.size(), other.size()) > 2 &&
         (other.find(name) != std::string::npos || name.find(other) != std::string::npos);
     const bool is_beside = !table.empty() && key.starts_with(table);
-    const int rank = other == name ? 3 : !holds ? 0 : is_beside ? 2 : 1;
+    const bool is_in_table = key.starts_with(name + ".");
+    const int rank = other == name ? 3 : holds ? (is_beside ? 2 : 1) : is_in_table ? 1 : 0;
     if (rank > best_rank) {
       best = key;
       best_rank = rank;
