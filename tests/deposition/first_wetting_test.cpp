@@ -120,8 +120,8 @@ Index n_changed_together(const Field& height, const Grid& grid, const Dose& dose
   return n;
 }
 
-// Doses of films below, between, at and above those of wetting, some of them twice; surfaces whose
-// equal heights the two models take alike, and others.
+// Doses of films below, between, at and above those of wetting, some of them twice; a surface
+// without equal heights, and surfaces full of them.
 TEST(FirstWettingDose, IsTheSameWithFilmsInTheSameRun) {
   Dose dose{.mean_films = {4e-7, 0, 1e-7, 5e-10, 1e-7, 3e-5}};
   const Wetting on_waves{{0, 1e-9, 1e-8, 1e-7, 3e-7, 3e-7, 1e-6, 2e-5},

@@ -96,8 +96,8 @@ void warn_of_load_on_seams(const topography::Topography& surface, const contact:
                   [](const std::string& step) { return step.starts_with("level=poly"); });
   list.push_back(
       {"seam-load",
-       fmt::format("Heights rise at the mirror seams: strips {1:.0f} % of a side wide "
-                   "carry {0:.3g} % of the load; try {2}",
+       fmt::format("Strips {1:.0f} % of a side wide at the mirror seams carry {0:.3g} % of the "
+                   "load; try {2}",
                    100 * share, 100 * kEdgeBand, is_bent ? "<crop>" : "<level=poly2> or <crop>"),
        share});
 }

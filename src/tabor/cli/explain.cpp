@@ -1,7 +1,6 @@
 #include "tabor/cli/explain.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -53,9 +52,10 @@ int explain(const Words& words, Context& context) {
   if (entry == nullptr) {
     Words codes;
     for (const cases::CodeEntry& one : cases::all_codes()) codes.emplace_back(one.code);
-    throw UsageError(fmt::format("{}: got '{}'; expected the code of a warning, such as {}; "
-                                 "docs/warnings.md lists all{}",
-                                 kExplain, code, codes.front(), suggestion(code, codes)));
+    throw UsageError(
+        fmt::format("{}: got '{}'; expected the code of a warning, such as {}; "
+                    "docs/warnings.md lists all{}",
+                    kExplain, code, codes.front(), suggestion(code, codes)));
   }
   io::Json object = json_head(context);
   object.update({{"code", entry->code},

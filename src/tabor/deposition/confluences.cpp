@@ -8,7 +8,7 @@ namespace tabor::deposition {
 namespace {
 
 constexpr Slopes::Target kUnknown = std::numeric_limits<Slopes::Target>::min();
-constexpr Slopes::Target kAhead = 16;  // how many forks ahead pools are asked of the memory
+constexpr Slopes::Target kAhead = 16;  // how many forks ahead their pools are prefetched
 
 }  // namespace
 
@@ -19,7 +19,7 @@ Confluences::Confluences(const Slopes& slopes, const Pools& pools)
       next_(pools.count() + slopes.n_forks(), kUnknown) {
   const auto n_pools = static_cast<PoolId>(pools.count());
   const auto n_forks = static_cast<Target>(slopes.n_forks());
-  for (Target number = 0; number < n_forks; ++number) {  // as they lie in memory, as their pools
+  for (Target number = 0; number < n_forks; ++number) {  // in the order of memory, as their pools
     go_on_or_throw(static_cast<std::size_t>(number));
     if (number + kAhead < n_forks) prefetch_pools(~(number + kAhead));
     explore(~number);

@@ -111,9 +111,9 @@ class Deposition {
     }
   }
 
-  void find_first_doses(Pools& pools, const std::vector<Volume>& doses, const DoseReached& reached,
+  void find_first_doses(Pools& pools, const std::vector<Volume>& films, const DoseReached& reached,
                         const Observer& observer) {
-    deposition::rain_evenly(pools, doses, reached,
+    deposition::rain_evenly(pools, films, reached,
                             {volumes(wetting_->mean_films, terrain_, 1), wetting_->where, first_},
                             observer);
   }

@@ -240,6 +240,12 @@ class EvenRain {
   std::vector<std::vector<PoolId>> due_;  ///< per dose
 };
 
+/// Rains at all doses, each of which `films` holds once.
+void rain(Pools& pools, const std::vector<Volume>& films, const FirstWetting& wetting,
+          const std::vector<Volume>& asked, const DoseReached& reached, const Observer& observer) {
+  if (!films.empty()) EvenRain(pools, films, wetting).run(asked, reached, observer);
+}
+
 /// All doses, each once, rising.
 std::vector<Volume> joined(const std::vector<Volume>& a, const std::vector<Volume>& b) {
   std::vector<Volume> all;
@@ -255,15 +261,14 @@ void rain_evenly(Pools& pools, const std::vector<Volume>& films, const DoseReach
                  const Observer& observer) {
   std::vector<std::uint16_t> none;
   const Mask nowhere;
-  EvenRain(pools, joined(films, {}), {{}, nowhere, none}).run(films, reached, observer);
+  rain(pools, joined(films, {}), {{}, nowhere, none}, films, reached, observer);
 }
 
 void rain_evenly(Pools& pools, const std::vector<Volume>& films, const DoseReached& reached,
                  const FirstWetting& wetting, const Observer& observer) {
   wetting.first.assign(static_cast<std::size_t>(pools.terrain().size()),
                        static_cast<std::uint16_t>(wetting.films.size()));
-  const std::vector<Volume> all = joined(films, wetting.films);
-  if (!all.empty()) EvenRain(pools, all, wetting).run(films, reached, observer);
+  rain(pools, joined(films, wetting.films), wetting, films, reached, observer);
 }
 
 }  // namespace tabor::deposition

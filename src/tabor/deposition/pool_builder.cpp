@@ -126,7 +126,8 @@ void PoolBuilder::build() {
   to_.last_ = grown(pool_at(0));
   release(into_);
   go_on_or_throw();
-  to_.growth_ = in_order(to_.growth_, to_.number_by_place(), to_.count());
+  const std::vector<PoolId> number = to_.number_by_place();
+  to_.growth_ = in_order(to_.growth_, number, to_.count());
   go_on_or_throw();
   make_arcs(ascending);
 }

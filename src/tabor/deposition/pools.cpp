@@ -12,18 +12,18 @@ namespace tabor::deposition {
 Pools::Pools(const Terrain& terrain, Ties ties) : terrain_(&terrain) {
   PoolBuilder(*this).build();
   if (ties == Ties::connected) TieConnector(*this).connect();
-  empty();
+  remove_liquid();
 }
 
 void Pools::connect_ties() {
   TieConnector(*this).connect();
-  empty();
+  remove_liquid();
 }
 
 /// Leaves hold liquid from the start; all other pools wait for their children. A leaf without
 /// height is full at once, and so may be what it becomes part of: which are leaves is said before
 /// the first begins.
-void Pools::empty() {
+void Pools::remove_liquid() {
   const bool has_ocean = terrain_->edge == Edge::open;
   const auto count = static_cast<PoolId>(pools_.size());
   std::int32_t begin = 0;

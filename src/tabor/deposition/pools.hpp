@@ -18,7 +18,7 @@ inline constexpr PoolId kNoPool = -1;
 inline constexpr Pixel kSeveral = -1;
 inline constexpr PoolId kOcean = 0;  ///< of an open edge: lies below everything and never fills
 
-/// Treatment of pixels of equal height.
+/// Treatment of equal heights.
 enum class Ties {
   connected,  ///< equal neighbours are one place (the rule of the droplets)
   ordered     ///< a lower pixel number counts as lower: no two heights are ever equal
@@ -69,10 +69,8 @@ class Pools {
   /// `terrain` must outlive the pools, but its heights are copied and may be released.
   Pools(const Terrain& terrain, Ties ties);
 
-  /// Removes all liquid. Not after renumber(), which removes pools.
-  void empty();
-
-  /// Empties pools with ordered ties and connects the ties: faster than to build them anew.
+  /// Removes all liquid from pools with ordered ties and connects the ties, which is faster than to
+  /// build pools anew. Not after renumber(), which removes pools.
   void connect_ties();
 
   const Terrain& terrain() const { return *terrain_; }
@@ -176,6 +174,7 @@ class Pools {
   /// Where the heights of a pool begin among the arcs.
   std::int32_t first_arc(PoolId id) const { return id == 0 ? 0 : growth(id - 1).rim + 1; }
   Height arc(std::int32_t place) const { return arcs_[static_cast<std::size_t>(place)]; }
+  void remove_liquid();
   std::vector<PoolId> number_by_place();
   void shorten(PoolId id, PoolId root);
   void take_in(PoolId id);

@@ -24,7 +24,7 @@ void TieConnector::connect() {
   find_bottoms();
 }
 
-/// True for the ocean, too: it has no pixels and is below everything.
+/// True for a pool without pixels, too, which only the ocean can be: it is below everything.
 bool TieConnector::has_height(PoolId id) const {
   const std::int32_t first = to_.first_arc(id);
   const std::int32_t rim = to_.growth(id).rim;

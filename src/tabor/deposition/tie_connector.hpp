@@ -6,7 +6,7 @@
 
 namespace tabor::deposition {
 
-/// Makes pools with connected ties of pools with ordered ties.
+/// Turns pools with ordered ties into pools with connected ties.
 ///
 /// Where ties are ordered, a pool that meets others at several saddles of one height merges at one
 /// after the other, and the pools between have no height: they begin at their rims. Where ties are
@@ -15,7 +15,8 @@ class TieConnector {
  public:
   explicit TieConnector(Pools& pools);
 
-  /// Leaves the liquid and the open children of the pools undefined: Pools::empty() follows.
+  /// Leaves the liquid and the open children of the pools undefined: Pools::remove_liquid()
+  /// follows.
   void connect();
 
  private:

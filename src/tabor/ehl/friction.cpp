@@ -18,11 +18,12 @@ std::optional<Warning> sheared_too_hard(const material::Shear& shear, double str
   const bool is_newtonian = material::law_of(shear) == material::ShearLaw::newtonian;
   const double ratio = std::abs(stress) / pressure;
   if (!is_newtonian || !(ratio > kYieldRatio)) return std::nullopt;
-  return Warning{"newtonian-shear",
-                 fmt::format("A Newtonian film would have a shear stress of {}, {} times its "
-                             "pressure. {}",
-                             si(stress, "Pa"), plain(ratio, 2), remedy),
-                 ratio};
+  return Warning{
+      "newtonian-shear",
+      fmt::format("Newtonian shear would be {} times the pressure: no friction is given. "
+                  "{}",
+                  plain(ratio, 2), remedy),
+      ratio};
 }
 
 /// A warning where solids carry a share of the load and no law says how they rub.

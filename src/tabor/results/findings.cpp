@@ -181,9 +181,7 @@ std::string statement_of(const Finding& finding) {
     std::string statement = finding.text + where_of(finding, n_names);
     if (statement.size() <= limit) return statement;
   }
-  Finding rest = finding;
-  if (finding.text.size() + where_of(rest, 0).size() > limit) rest.texts_differ = false;
-  const std::string where = where_of(rest, 0);
+  const std::string where = where_of(finding, 0);
   return shortened(finding.text, limit - where.size()) + where;
 }
 

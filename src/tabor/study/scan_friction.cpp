@@ -22,6 +22,7 @@ namespace tabor::study {
 namespace {
 
 constexpr Index kFewestPixels = 32;  // along a side that is still coarsened
+constexpr double kManyDroplets = 4;  // per pixel: as good as vanishing ones, for a difference
 
 /// Returns a pointer to what outlives it.
 template <typename Value>
@@ -169,15 +170,27 @@ std::size_t n_waiting(const Grid& grid, bool maps_are_kept) {
   return std::max<std::size_t>(2, available_memory_bytes() / 4 / std::max<std::size_t>(1, bytes));
 }
 
-/// Computes rain and contacts on a quarter of the pixels. Droplets rain as their limit: it is
-/// closer to them than the pixel sizes are to each other.
+/// True where the limit of small droplets stands for the droplets: they are whole, and each film
+/// has many.
+bool is_near_limit(const cases::FilmSettings& settings) {
+  return settings.model == deposition::Model::droplets &&
+         settings.reading == deposition::Reading::conserving &&
+         std::all_of(settings.lubricant_densities.begin(), settings.lubricant_densities.end(),
+                     [&](double density) {
+                       const double film = deposition::mean_film(density, settings.oil_density);
+                       return film == 0 || film >= kManyDroplets * settings.droplet_height;
+                     });
+}
+
+/// Computes rain and contacts on a quarter of the pixels. Small droplets rain as their limit: it is
+/// much closer to them than the two pixel sizes are to each other.
 CoarsePixels coarse_pixels(const topography::Topography& surface,
                            const cases::CaseSettings& settings, const Observer& observer) {
   const Grid& grid = surface.grid;
   const topography::Topography coarse = topography::apply(
       {fmt::format("resample={},{}", grid.nx / 2, grid.ny / 2)}, surface, observer);
   cases::FilmSettings rain = settings.film;
-  if (rain.model == deposition::Model::droplets) rain.model = deposition::Model::limit;
+  if (is_near_limit(rain)) rain.model = deposition::Model::limit;
   const auto films = cases::film_state(coarse, rain, observer);
   CoarsePixels result{coarse.grid.dx(), {}};
   const auto receive = [&](const cases::ContactRecord& contact) {

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "tabor/core/error.hpp"
+#include "tabor/core/units.hpp"
 #include "tabor/synthesis/random_field.hpp"
 #include "tabor/synthesis/recipe_checks.hpp"
 #include "tabor/synthesis/recipe_parameters.hpp"
@@ -48,22 +49,23 @@ double power_law(double q, const Corners& corners, double hurst, double unit) {
 void check_recipe(const SelfAffine& recipe) {
   check_grid(recipe.grid, "self-affine surface");
   check_settings(recipe);
-  if (recipe.roll_off_wavelength > 0) {
-    check_two_pixels("self-affine surface", "a roll-off wavelength", recipe.roll_off_wavelength,
-                     std::min(recipe.grid.dx(), recipe.grid.dy()));
-  }
   check_height("waves of the rms slope",
                recipe.rms_slope.value_or(0) * std::max(recipe.grid.lx, recipe.grid.ly) / (2 * pi));
 }
 
 /// Throws InputError if the cutoffs leave out the longest wave that fits, and all shorter ones, or
-/// the shortest wave of the pixels, and all longer ones.
+/// the shortest wave of the pixels, and all longer ones; or if the spectrum is flat.
 void check_waves(const SelfAffine& recipe, const Corners& corners) {
   const Grid& grid = recipe.grid;
   const double longest = std::min(elliptic_wavevector(2 * pi / grid.lx, 0, recipe.stretch),
                                   elliptic_wavevector(0, 2 * pi / grid.ly, recipe.stretch));
   const double shortest = elliptic_wavevector(pi / grid.dx(), pi / grid.dy(), recipe.stretch);
   if (longest > corners.highest || shortest < corners.lowest) reject_waves();
+  if (shortest > corners.roll_off) return;
+  throw InputError("self-affine surface",
+                   "a roll-off wavelength of " + format_si(recipe.roll_off_wavelength, "m"),
+                   "more than the shortest wave, " + format_si(2 * pi / shortest, "m"),
+                   "all waves would be equally strong: white noise");
 }
 
 }  // namespace

@@ -135,6 +135,15 @@ TEST(SolvePointMixed, TakesFewStepsOnFinerGrids) {
   EXPECT_LE(iterations, 7 * 40);
 }
 
+/// From a coarser grid, one node changes to and fro between flowing and liquid.
+TEST(SolvePointMixed, TakesStepsInTimeWhereNewtonsMethodFails) {
+  PointProblem problem = small_case(50, 113);
+  problem.roughness = rough(problem, kLapped, false, 1);
+  const PointResult result = solve_point(problem);
+  expect_conditions(problem, result);
+  EXPECT_LE(result.convergence.iterations, 150);
+}
+
 TEST(SolvePointMixed, TendsToTheDryContactAsTheSpeedVanishes) {
   PointProblem problem = small_case(1e-5);
   const PointResult result = solve_point(problem);

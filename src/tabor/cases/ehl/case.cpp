@@ -9,7 +9,7 @@ void reject_beside(const io::Config& file, std::string_view key, const std::stri
 
 void reject_without(const io::Config& file, std::string_view key, const std::string& other,
                     const std::string& remedy) {
-  throw InputError(file.place(key), "without " + other, "both or none", remedy);
+  throw InputError(file.place(key), "without " + other, other + " beside it", remedy);
 }
 
 std::filesystem::path named_file(const io::Config& config, std::string_view key) {

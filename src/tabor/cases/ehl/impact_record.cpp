@@ -40,7 +40,7 @@ const Columns<ImpactMeasures>& result_columns() {
   using One = ImpactMeasures;
   static const Columns<One> all{
       {"end", "", "end", [](const One& one) { return name_of(one.end); }, kAlone},
-      {"max_force_N", "N", "force", &One::max_force, kInTable},
+      {"max_force_N", "N", "largest force", &One::max_force, kInTable},
       {"time_max_force_s", "s", "time of the largest force", &One::time_max_force, kAlone},
       {"min_film_m", "m", "smallest film", &One::min_film, kInTable},
       {"time_min_film_s", "s", "time of the smallest film", &One::time_min_film, kAlone},

@@ -55,7 +55,7 @@ Warnings void_friction(const LineProblem& problem, LineResult& result) {
                                           .fluid = result.friction_fluid,
                                           .solid = result.friction_solid,
                                           .coefficient = result.friction_coefficient},
-                                         "No other law is known here: no friction is given");
+                                         "Line contacts know no other law");
   if (!warnings.empty()) result.friction_force = result.friction_coefficient * problem.load;
   if (std::isnan(result.max_shear_stress)) {
     result.shear_stress.setConstant(kNone);

@@ -190,6 +190,9 @@ const Parameters<ShearSettings>& shear_parameters() {
 }
 
 material::Shear shear_of(const ShearSettings& settings, const io::Config& file) {
+  if (settings.limiting_coefficient && !settings.limiting_stress) {
+    reject_without(file, "lubricant.limiting_coefficient", "limiting_stress");
+  }
   if (settings.eyring_stress) {
     if (settings.limiting_stress) reject_beside(file, "lubricant.limiting_stress", "eyring_stress");
     return material::ree_eyring_shear(*settings.eyring_stress);
@@ -197,9 +200,6 @@ material::Shear shear_of(const ShearSettings& settings, const io::Config& file) 
   if (settings.limiting_stress) {
     return material::limiting_shear(*settings.limiting_stress,
                                     settings.limiting_coefficient.value_or(0));
-  }
-  if (settings.limiting_coefficient) {
-    reject_without(file, "lubricant.limiting_coefficient", "limiting_stress");
   }
   return material::NewtonianShear{};
 }

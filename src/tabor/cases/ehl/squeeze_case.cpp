@@ -13,6 +13,8 @@ namespace tabor::ehl {
 
 namespace {
 
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
 /// What a user is told of a squeezed film.
 struct SqueezeRecord {
   SqueezeMeasures measures;
@@ -22,13 +24,16 @@ struct SqueezeRecord {
 const Columns<SqueezeMeasures>& measure_columns() {
   using One = SqueezeMeasures;
   static const Columns<One> all{
-      {"max_force_N_per_m", "N/m", "force", &One::max_force, kInTable},
+      {"max_force_N_per_m", "N/m", "largest force", &One::max_force, kInTable},
       {"min_film_m", "m", "smallest film", &One::min_film, kInTable},
-      {"time_max_force_s", "s", "time of force", &One::time_max_force, kInTable},
+      {"time_max_force_s", "s", "time of the largest force", &One::time_max_force, kInTable},
       {"time_min_film_s", "s", "time of the smallest film", &One::time_min_film, kAlone},
       {"turning_time_s", "s", "roller turns", &One::turning_time, kInTable},
       {"lag_s", "s", "film lags", &One::lag, kInTable},
-      {"gap_closing_at_turning", "", "gap still closing at the turn", &One::gap_closing_at_turning,
+      {"gap_closing_at_turning", "", "gap still closing at the turn",
+       [](const One& one) {
+         return std::isnan(one.turning_time) ? Cell(kNone) : Cell(one.gap_closing_at_turning);
+       },
        kAlone},
       {"converged", "", "converged", [](const One& one) { return one.convergence.converged(); },
        kAlone},
@@ -86,7 +91,6 @@ const Columns<Instant>& history_columns() {
 
 /// Takes away what a film that closed on the way never came to.
 void void_what_follows(bool has_max_force, SqueezeResult& result) {
-  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   result.min_film = result.time_min_film = result.turning_time = result.lag = kNone;
   if (!has_max_force) result.max_force = result.time_max_force = kNone;
 }

@@ -221,8 +221,9 @@ void measure(SqueezeResult& result) {
   const auto thinnest = std::min_element(
       history.begin(), history.end(),
       [](const SqueezeInstant& a, const SqueezeInstant& b) { return a.film < b.film; });
-  result.max_force = strongest->force;
-  result.time_max_force = strongest->time;
+  const bool has_force = std::isfinite(strongest->force);
+  result.max_force = has_force ? strongest->force : kNothing;
+  result.time_max_force = has_force ? strongest->time : kNothing;
   result.min_film = thinnest->film;
   result.time_min_film = result.turning_time = kNothing;
   for (std::size_t i = 1; i < history.size(); ++i) {

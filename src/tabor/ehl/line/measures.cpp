@@ -41,7 +41,8 @@ double pressure_before_spike(const LineResult& result) {
   if (!(result.x[highest] > 0) || !is_sharp(result.pressure, highest)) return largest;
   Index foot = highest;  // the spike begins in the valley before it
   while (foot > 0 && result.pressure[foot - 1] < result.pressure[foot]) --foot;
-  return foot > 0 ? result.pressure.head(foot + 1).maxCoeff() : largest;  // no valley, no spike
+  const double before = result.pressure.head(foot + 1).maxCoeff();
+  return before > result.pressure[foot] ? before : largest;  // no valley, no spike
 }
 
 Warnings warnings_of(const LineProblem& problem, const LineResult& result) {

@@ -127,6 +127,12 @@ Field PointFilm::mass_of(const PointState& state) const {
   return state.film * state.pressure.unaryExpr([&](double p) { return density.at(p).value; });
 }
 
+Field PointFilm::first_mass(PointState state, const PointConditions& conditions) const {
+  state.film = film_of(state, conditions.shape);
+  open(state);
+  return mass_of(state);
+}
+
 /// Raises solids that would run into each other before the first step; where they may not touch,
 /// false instead.
 bool PointFilm::open(PointState& state) const {

@@ -82,6 +82,8 @@ class PointFilm {
   /// A state of another grid of the same domain in half axes, between its nodes; nothing touches.
   PointState resampled(const PointState& state, const Grid& from) const;
   Field mass_of(const PointState& state) const;  ///< rho/rho0 h [m]
+  /// The mass from which solve() begins: of bodies that are raised until they do not overlap.
+  Field first_mass(PointState state, const PointConditions& conditions) const;
   /// True where node k = j nx + i lies off the border, where the pressure is given.
   bool in_domain(Index k) const;
 

@@ -17,6 +17,9 @@ constexpr Index kCoarsest = 48;  // nodes along a side of a grid that is not coa
 /// The film of the first guess over that of Nijenbanning's formula: Newton's method comes down
 /// safely from a thick film, where the flow depends on the pressure gradient.
 constexpr double kFirstFilms[] = {3, 10, 1, 30};
+constexpr int kStepsInTime = 7;         // the first one while liquid crosses a cell
+constexpr double kStepGrowth = 3;       // of a step over the one before
+constexpr double kStepTolerance = 0.1;  // of a film on the way
 constexpr double kInletLengths = 4;
 constexpr double kLargeError = 0.02;  // of the film, worth a warning
 
@@ -44,6 +47,34 @@ std::optional<PointProblem> coarser(const PointProblem& problem) {
     coarse.roughness = transfer.mean(problem.roughness);
   }
   return coarse;
+}
+
+/// Steps in time until the film hardly changes, then solves for the steady one (pseudo-transient
+/// continuation, Kelley & Keyes 1998). The flow grows with the cube of the film, so the thicker a
+/// thin film beside a plastic node is, the more it takes in. Without time, Newton's equations ask
+/// there for a negative pressure, where the liquid would fill the gap.
+PointFilm::Outcome settle_in_time(const PointFilm& film, const PointConditions& asked,
+                                  PointState& state, const Observer& observer) {
+  PointConditions conditions = asked;
+  conditions.tolerance = std::max(asked.tolerance, kStepTolerance);
+  double step = film.grid().dx() / asked.speed;  // [s]
+  PointFilm::Outcome outcome;
+  for (int i = 0; i < kStepsInTime; ++i, step *= kStepGrowth) {
+    const PointStorage storage{.time_step = step, .old_mass = film.first_mass(state, conditions)};
+    outcome = outcome + film.solve(state, conditions, storage, observer);
+    if (!outcome.convergence.converged()) return outcome;
+  }
+  return outcome + film.solve(state, asked, {}, observer);
+}
+
+/// Solves for the steady film; where that fails and solids may touch, by way of steps in time.
+PointFilm::Outcome solve_steady(const PointFilm& film, const PointConditions& conditions,
+                                PointState& state, const Observer& observer) {
+  const PointState begin = state;
+  const PointFilm::Outcome outcome = film.solve(state, conditions, {}, observer);
+  if (!film.options().solids_touch || !outcome.convergence.failed()) return outcome;
+  state = begin;
+  return outcome + settle_in_time(film, conditions, state, observer);
 }
 
 Warnings warnings_of(const PointProblem& problem, const PointResult& result) {
@@ -104,7 +135,7 @@ PointFilm::Outcome solve_nested(const PointProblem& problem, const PointFilm& fi
   const PointFilm::Outcome before = solve_coarse(*coarse, coarse_film, state, observer);
   state = film.resampled(state, coarse_film.grid());
   if (!before.convergence.converged()) return before;
-  return before + film.solve(state, conditions_of(problem, film), {}, observer);
+  return before + solve_steady(film, conditions_of(problem, film), state, observer);
 }
 
 PointFilm::Outcome follow(const PointFilm& film, const PointWay& way, PointState& state,
@@ -112,7 +143,7 @@ PointFilm::Outcome follow(const PointFilm& film, const PointWay& way, PointState
   return numerics::follow(state, way.steps, [&](PointState& next, double share) {
     PointConditions conditions = way.conditions_at(share);
     if (share < 1) conditions.tolerance = std::max(conditions.tolerance, kRoughly);
-    return film.solve(next, conditions, {}, observer);
+    return solve_steady(film, conditions, next, observer);
   });
 }
 
