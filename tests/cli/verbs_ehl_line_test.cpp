@@ -52,6 +52,9 @@ TEST(EhlLine, KeepsItsProfile) {
   EXPECT_TRUE(reader.exists("/profile/hertz_pressure"));
   EXPECT_TRUE(reader.exists("/profile/shear_stress"));
   EXPECT_TRUE(reader.exists("/profile/local_friction"));
+  const Outcome info = run_tabor({"info", file});
+  EXPECT_EQ(info.code, 3);
+  EXPECT_THAT(info.err, HasSubstr("got results of tabor (ehl line); expected a scan file"));
 }
 
 std::vector<std::string> with_asperity(const std::string& height) {

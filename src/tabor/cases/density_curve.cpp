@@ -49,8 +49,8 @@ std::vector<double> densities_for(const topography::Topography& surface,
 
 /// The doses of all densities for `settings`, in one run with the films of `laid`.
 WettingDoses doses_and_films(const topography::Topography& surface, const FilmSettings& settings,
-                             FilmSettings laid, const Mask& where, const deposition::FilmSink& sink,
-                             const Observer& observer) {
+                             const FilmSettings& laid, const Mask& where,
+                             const deposition::FilmSink& sink, const Observer& observer) {
   WettingDoses doses{densities_for(surface, settings), {}};
   if (doses.lubricant_densities.empty() && laid.lubricant_densities.empty()) return doses;
   deposition::Wetting wetting{{}, where};

@@ -65,7 +65,7 @@ void check_waves(const SelfAffine& recipe, const Corners& corners) {
   throw InputError("self-affine surface",
                    "a roll-off wavelength of " + format_si(recipe.roll_off_wavelength, "m"),
                    "more than the shortest wave, " + format_si(2 * pi / shortest, "m"),
-                   "all waves would be equally strong: white noise");
+                   "take smaller pixels, or the surface is white noise");
 }
 
 }  // namespace

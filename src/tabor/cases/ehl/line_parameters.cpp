@@ -288,8 +288,10 @@ Eigen::ArrayXd row_of_scan(const LineRoughnessSettings& settings, const io::Conf
     throw InputError(file.place("roughness.row"), fmt::format("{}", row),
                      fmt::format("0 to {}", n_rows - 1), "");
   }
-  return line_profile(problem, scan.height.row(static_cast<Index>(row)).transpose(),
-                      scan.grid.dx());
+  return at_key(file, "roughness.file", [&] {
+    return line_profile(problem, scan.height.row(static_cast<Index>(row)).transpose(),
+                        scan.grid.dx());
+  });
 }
 
 std::optional<SingleAsperity> single_asperity(const LineRoughnessSettings& settings,

@@ -8,6 +8,7 @@
 
 #include "tabor/core/checks.hpp"
 #include "tabor/core/error.hpp"
+#include "tabor/core/units.hpp"
 #include "tabor/ehl/film.hpp"
 #include "tabor/ehl/line/film.hpp"
 #include "tabor/ehl/plain.hpp"
@@ -28,8 +29,8 @@ void check_domain(const LineProblem& problem) {
   const double beside_centre = std::min(-x[0], x[x.size() - 1]);
   if (!(beside_centre > half_width)) {
     throw InputError("domain of a line contact",
-                     fmt::format("{:.4g} m beside the centre", beside_centre),
-                     fmt::format("more than the half width of Hertz, {:.4g} m", half_width),
+                     format_si(beside_centre, "m") + " beside the centre",
+                     "more than the half width of Hertz, " + format_si(half_width, "m"),
                      "make the domain longer, or leave it out");
   }
   const double spacing = x[1] - x[0];
@@ -37,8 +38,9 @@ void check_domain(const LineProblem& problem) {
   const double width = half_width + std::sqrt(2 * problem.radius * film);
   if (!(width >= kMinNodesPerHalfWidth * spacing)) {
     throw InputError(
-        "grid of a line contact", fmt::format("{} nodes, {:.4g} m apart", problem.nodes, spacing),
-        fmt::format("{} nodes in the half width, {:.4g} m", kMinNodesPerHalfWidth, width),
+        "grid of a line contact",
+        fmt::format("{} nodes, {} apart", problem.nodes, format_si(spacing, "m")),
+        fmt::format("{} nodes in the half width, {}", kMinNodesPerHalfWidth, format_si(width, "m")),
         "give more nodes or a shorter domain");
   }
 }

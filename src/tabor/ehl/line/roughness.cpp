@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "tabor/core/error.hpp"
+#include "tabor/core/units.hpp"
 #include "tabor/ehl/line/film.hpp"
 #include "tabor/ehl/line/line.hpp"
 
@@ -17,9 +18,10 @@ void check_length(const LineProblem& problem, const Eigen::ArrayXd& x, const cha
                   double length) {
   const double shortest = kMinNodesPerAsperity * (x[1] - x[0]);
   if (!(length >= shortest)) {
-    throw InputError(what, fmt::format("{:.4g} m", length),
-                     fmt::format("{:.4g} m or more with {} nodes", shortest, problem.nodes),
-                     "give more nodes");
+    throw InputError(
+        what, format_si(length, "m"),
+        fmt::format("{} or more with {} nodes", format_si(shortest, "m"), problem.nodes),
+        "give more nodes");
   }
 }
 
@@ -37,8 +39,10 @@ Eigen::ArrayXd line_asperity(const LineProblem& problem, double height, double w
   const Eigen::ArrayXd x = line_nodes(problem);
   check_length(problem, x, "width of an asperity", width);
   if (!(place >= x[0] && place <= x[x.size() - 1])) {
-    throw InputError("place of an asperity", fmt::format("{:.4g} m", place),
-                     fmt::format("{:.4g} to {:.4g} m, the domain", x[0], x[x.size() - 1]), "");
+    throw InputError(
+        "place of an asperity", format_si(place, "m"),
+        fmt::format("{} to {}, the domain", format_si(x[0], "m"), format_si(x[x.size() - 1], "m")),
+        "");
   }
   return x.unaryExpr([=](double at) {
     const double wave = std::cos(std::numbers::pi * (at - place) / width);
@@ -58,8 +62,8 @@ Eigen::ArrayXd line_profile(const LineProblem& problem, const Eigen::ArrayXd& he
   const double length = spacing * static_cast<double>(height.size() - 1);
   const double needed = x[x.size() - 1] - x[0];
   if (!(length >= needed)) {
-    throw InputError("profile of a roughness", fmt::format("{:.4g} m long", length),
-                     fmt::format("the domain of the film or more, {:.4g} m", needed),
+    throw InputError("profile of a roughness", format_si(length, "m"),
+                     "the domain of the film or more, " + format_si(needed, "m"),
                      "a longer profile, or a shorter grid.inlet and grid.outlet");
   }
   if (!height.isFinite().all()) {

@@ -23,7 +23,7 @@ void check_domain(const PointProblem& problem) {
   const double shortest = std::min({problem.inlet, problem.outlet, problem.half_width});
   if (!(shortest >= 1) || !std::isfinite(problem.inlet + problem.outlet + problem.half_width)) {
     throw InputError("domain of a point contact",
-                     fmt::format("{} half axes beside the centre", shortest),
+                     fmt::format("{:.4g} half axes beside the centre", shortest),
                      "1 or more: the contact of Hertz lies inside", "");
   }
   const reference::HertzEllipse hertz = hertz_of(problem);

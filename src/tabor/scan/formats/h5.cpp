@@ -158,9 +158,19 @@ void add_warnings(const io::Hdf5Reader& reader, Document& document) {
   }
 }
 
+/// Throws InputError for a file that tabor has written without a surface.
+void reject_results(const Contents& contents, const io::Hdf5Reader& reader) {
+  if (!reader.has_attribute("/", "format") || reader.text("/", "format") != "tabor") return;
+  const std::string kind =
+      reader.has_attribute("/", "kind") ? " (" + reader.text("/", "kind") + ")" : "";
+  reject(contents, "results of tabor" + kind, "a scan file",
+         "'tabor report' draws them, tb.load() of Python reads them");
+}
+
 Document describe(const Contents& contents) {
   const io::Hdf5Reader reader(contents.file);
   if (!reader.exists(kHeight)) {
+    reject_results(contents, reader);
     throw Unrecognised(contents, "an HDF5 file without /surface/height",
                        "tabor reads the HDF5 files it writes, Zygo's and NetCDF");
   }
