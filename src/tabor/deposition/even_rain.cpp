@@ -74,7 +74,7 @@ class EvenRain {
         wetting_(wetting),
         films_(std::move(films)),
         states_(pools.count()),
-        due_(films_.size()) {
+        due_(films_.size() + 1) {
     for (const Catchments::Source& source : catchments_.sources()) {
       state(source.pool).catchment = source.area;
       due_.front().push_back(source.pool);
@@ -237,14 +237,8 @@ class EvenRain {
   std::uint16_t wets_ = 0;     ///< the first wetting dose that is not below it
   std::vector<State> states_;  ///< per pool
   std::vector<Rest> rests_;
-  std::vector<std::vector<PoolId>> due_;  ///< per dose
+  std::vector<std::vector<PoolId>> due_;  ///< per dose, and one more: there may be no dose
 };
-
-/// Rains at all doses, each of which `films` holds once.
-void rain(Pools& pools, const std::vector<Volume>& films, const FirstWetting& wetting,
-          const std::vector<Volume>& asked, const DoseReached& reached, const Observer& observer) {
-  if (!films.empty()) EvenRain(pools, films, wetting).run(asked, reached, observer);
-}
 
 /// All doses, each once, rising.
 std::vector<Volume> joined(const std::vector<Volume>& a, const std::vector<Volume>& b) {
@@ -261,14 +255,14 @@ void rain_evenly(Pools& pools, const std::vector<Volume>& films, const DoseReach
                  const Observer& observer) {
   std::vector<std::uint16_t> none;
   const Mask nowhere;
-  rain(pools, joined(films, {}), {{}, nowhere, none}, films, reached, observer);
+  EvenRain(pools, joined(films, {}), {{}, nowhere, none}).run(films, reached, observer);
 }
 
 void rain_evenly(Pools& pools, const std::vector<Volume>& films, const DoseReached& reached,
                  const FirstWetting& wetting, const Observer& observer) {
   wetting.first.assign(static_cast<std::size_t>(pools.terrain().size()),
                        static_cast<std::uint16_t>(wetting.films.size()));
-  rain(pools, joined(films, wetting.films), wetting, films, reached, observer);
+  EvenRain(pools, joined(films, wetting.films), wetting).run(films, reached, observer);
 }
 
 }  // namespace tabor::deposition

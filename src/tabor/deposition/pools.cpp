@@ -11,8 +11,11 @@ namespace tabor::deposition {
 
 Pools::Pools(const Terrain& terrain, Ties ties) : terrain_(&terrain) {
   PoolBuilder(*this).build();
-  if (ties == Ties::connected) TieConnector(*this).connect();
-  remove_liquid();
+  if (ties == Ties::connected) {
+    connect_ties();
+  } else {
+    remove_liquid();
+  }
 }
 
 void Pools::connect_ties() {

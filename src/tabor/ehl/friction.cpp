@@ -20,8 +20,7 @@ std::optional<Warning> sheared_too_hard(const material::Shear& shear, double str
   if (!is_newtonian || !(ratio > kYieldRatio)) return std::nullopt;
   return Warning{
       "newtonian-shear",
-      fmt::format("Newtonian shear would be {} times the pressure: no friction is given. "
-                  "{}",
+      fmt::format("Newtonian shear would be {} times the pressure: no friction is given. {}",
                   plain(ratio, 2), remedy),
       ratio};
 }

@@ -12,6 +12,12 @@ void reject_without(const io::Config& file, std::string_view key, const std::str
   throw InputError(file.place(key), "without " + other, other + " beside it", remedy);
 }
 
+void reject_lone(const io::Config& file, std::span<const LoneKey> keys) {
+  for (const LoneKey& key : keys) {
+    if (file.has(key.name) && !file.has(key.needed)) reject_without(file, key.name, key.needed);
+  }
+}
+
 std::filesystem::path named_file(const io::Config& config, std::string_view key) {
   return std::filesystem::path(config.name()).parent_path() / config.text(key);
 }

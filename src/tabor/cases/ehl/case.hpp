@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -36,6 +37,15 @@ const Value& required(const std::optional<Value>& value, const io::Config& file,
                                 const std::string& other, const std::string& remedy = "");
 [[noreturn]] void reject_without(const io::Config& file, std::string_view key,
                                  const std::string& other, const std::string& remedy = "");
+
+/// A key that means nothing without another one.
+struct LoneKey {
+  const char* name;
+  const char* needed;
+};
+
+/// Throws InputError for the first of these keys that the file has without the one it needs.
+void reject_lone(const io::Config& file, std::span<const LoneKey> keys);
 
 /// The file that a key names, from where the case lies.
 std::filesystem::path named_file(const io::Config& config, std::string_view key);

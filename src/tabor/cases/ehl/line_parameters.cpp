@@ -186,6 +186,21 @@ Parameters<LineSettings> film_parameters() {
               &Settings::outlet)};
 }
 
+constexpr LoneKey kLoneLineKeys[] = {{"roughness.width", "roughness.height"},
+                                     {"roughness.place", "roughness.height"},
+                                     {"roughness.wavelength", "roughness.amplitude"},
+                                     {"roughness.row", "roughness.file"},
+                                     {"wear.track_length", "wear.coefficient"},
+                                     {"wear.stroke", "wear.coefficient"},
+                                     {"wear.steps", "wear.coefficient"},
+                                     {"wear.cycles", "wear.coefficient"},
+                                     {"wear.cycles_each", "wear.coefficient"},
+                                     {"wear.density", "wear.coefficient"},
+                                     {"wear.width", "wear.coefficient"},
+                                     {"wear.wave_amplitude", "wear.coefficient"},
+                                     {"wear.waves", "wear.wave_amplitude"},
+                                     {"film.penalty", "film.cavitation"}};
+
 }  // namespace
 
 const Parameters<LineSettings>& line_parameters() {
@@ -199,39 +214,10 @@ const Parameters<LineSettings>& line_parameters() {
   return all;
 }
 
-namespace {
-
-/// Throws InputError for a key that means nothing without another one.
-void reject_idle_keys(const io::Config& file) {
-  struct Key {
-    const char* name;
-    const char* needed;
-  };
-  constexpr Key keys[] = {{"roughness.width", "roughness.height"},
-                          {"roughness.place", "roughness.height"},
-                          {"roughness.wavelength", "roughness.amplitude"},
-                          {"roughness.row", "roughness.file"},
-                          {"wear.track_length", "wear.coefficient"},
-                          {"wear.stroke", "wear.coefficient"},
-                          {"wear.steps", "wear.coefficient"},
-                          {"wear.cycles", "wear.coefficient"},
-                          {"wear.cycles_each", "wear.coefficient"},
-                          {"wear.density", "wear.coefficient"},
-                          {"wear.width", "wear.coefficient"},
-                          {"wear.wave_amplitude", "wear.coefficient"},
-                          {"wear.waves", "wear.wave_amplitude"},
-                          {"film.penalty", "film.cavitation"}};
-  for (const Key& key : keys) {
-    if (file.has(key.name) && !file.has(key.needed)) reject_without(file, key.name, key.needed);
-  }
-}
-
-}  // namespace
-
 LineSettings read_line_settings(const io::Config& file) {
   LineSettings settings;
   read_settings(file, line_parameters(), settings);
-  reject_idle_keys(file);
+  reject_lone(file, kLoneLineKeys);
   return settings;
 }
 

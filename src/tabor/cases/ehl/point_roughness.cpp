@@ -161,40 +161,17 @@ Heights sum_of(const std::vector<Heights>& parts) {
   };
 }
 
-/// One that belongs to a surface.
-struct Lone {
-  bool is_given;
-  const char* key;
-};
-
-void reject_lone(const io::Config& config, const char* surface, const std::vector<Lone>& settings) {
-  for (const Lone& one : settings) {
-    if (one.is_given) reject_without(config, one.key, surface);
-  }
-}
-
-/// Settings that say something about a surface that the case does not have.
-void reject_lone_settings(const PointRoughnessSettings& settings, const io::Config& config) {
-  if (!settings.file) {
-    reject_lone(config, "roughness.file",
-                {{settings.channel.has_value(), "roughness.channel"},
-                 {settings.treatment.has_value(), "roughness.treatment"}});
-  }
-  if (!settings.kind) {
-    reject_lone(config, "roughness.kind",
-                {{settings.rms.has_value(), "roughness.rms"},
-                 {settings.pixel.has_value(), "roughness.pixel"},
-                 {settings.seed.has_value(), "roughness.seed"},
-                 {settings.groove_spacing.has_value(), "roughness.groove_spacing"}});
-  }
-}
+constexpr LoneKey kLoneRoughnessKeys[] = {
+    {"roughness.channel", "roughness.file"}, {"roughness.treatment", "roughness.file"},
+    {"roughness.rms", "roughness.kind"},     {"roughness.pixel", "roughness.kind"},
+    {"roughness.seed", "roughness.kind"},    {"roughness.groove_spacing", "roughness.kind"}};
 
 }  // namespace
 
 PointRoughness read_point_roughness(const io::Config& config, const PointProblem& problem,
                                     double travel, const CaseSetting& setting) {
   const PointRoughnessSettings settings = read_point_settings(config).roughness;
-  reject_lone_settings(settings, config);
+  reject_lone(config, kLoneRoughnessKeys);
   PointRoughness roughness;
   std::vector<Heights> parts;
   const auto add_map = [&](const char* key, const Surface& surface, double behind) {
@@ -214,9 +191,9 @@ PointRoughness read_point_roughness(const io::Config& config, const PointProblem
     parts.push_back(bump_heights(settings, config, problem));
   }
   if (parts.empty()) {
-    reject_lone(config, "roughness.file",
-                {{settings.orientation.has_value(), "roughness.orientation"},
-                 {!settings.place.empty(), "roughness.place"}});
+    for (const char* key : {"roughness.orientation", "roughness.place"}) {
+      if (config.has(key)) reject_without(config, key, "roughness.file or roughness.kind");
+    }
     return {};
   }
   roughness.heights = sum_of(parts);
