@@ -6,8 +6,8 @@
 
 namespace tabor::deposition {
 
-/// Finds the catchments of a surface: the lowest place that each pixel drains to, and the path of
-/// overflow. For pools with ordered ties, where a flow path never meets equal heights.
+/// Catchments of a surface: how many pixels drain to each lowest place, and the path of overflow.
+/// For pools with ordered ties, where a flow path never meets equal heights.
 class Catchments {
  public:
   explicit Catchments(Pools& pools);
@@ -29,15 +29,11 @@ class Catchments {
 
  private:
   bool lower(Pixel a, Pixel b) const;
-  Pixel downhill(Pixel p) const;
-  void drain_all();
   PoolId across_saddle(PoolId full);
   void pour(PoolId first, Volume carried);
 
   Pools& pools_;
-  std::vector<PoolId> drains_to_;  ///< per pixel: leaf pool, or kOcean
-  std::vector<Source> sources_;    ///< of all pixels, by pools
-  std::vector<PoolId> runs_to_;    ///< per full pool: where its overflow went last, or kNoPool
+  std::vector<Source> sources_;  ///< of all pixels, by pools
   std::vector<PoolId> passed_;
 };
 

@@ -16,8 +16,9 @@
 #include "tabor/deposition/even_rain.hpp"
 #include "tabor/deposition/film_measures.hpp"
 #include "tabor/deposition/images.hpp"
-#include "tabor/deposition/pool_builder.hpp"
+#include "tabor/deposition/pools.hpp"
 #include "tabor/deposition/rain.hpp"
+#include "tabor/deposition/ranks.hpp"
 
 namespace tabor::deposition {
 namespace {
@@ -93,7 +94,7 @@ class Deposition {
   }
 
   void rain_droplets(const Observer& observer) {
-    Pools pools(terrain_, Ties::ordered);
+    Pools pools(terrain_, Ties::ordered, wetting_ != nullptr);
     release(terrain_.height);
     if (wetting_ != nullptr) find_first_doses(pools, {}, {}, observer);
     pools.connect_ties();
@@ -102,7 +103,7 @@ class Deposition {
   }
 
   void rain_evenly(const Observer& observer) {
-    Pools pools(terrain_, Ties::ordered);
+    Pools pools(terrain_, Ties::ordered, wetting_ != nullptr);
     release(terrain_.height);
     if (wetting_ == nullptr) {
       deposition::rain_evenly(pools, doses(1), to_films(pools), observer);

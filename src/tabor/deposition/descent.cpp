@@ -1,12 +1,15 @@
 #include "tabor/deposition/descent.hpp"
 
 #include <algorithm>
+#include <limits>
+#include <utility>
 
 #include "tabor/core/watch.hpp"
 
 namespace tabor::deposition {
 
-Descent::Descent(const Pools& pools) : first_(pools.count()), end_(pools.count()) {
+Descent::Descent(const Pools& pools)
+    : first_(pools.count()), end_(pools.count()), ids_(pools.count()) {
   const auto n = static_cast<PoolId>(pools.count());
   std::vector<PoolId> child(pools.count(), kNoPool);
   std::vector<PoolId> sibling(pools.count(), kNoPool);
@@ -35,6 +38,7 @@ void Descent::walk(const std::vector<PoolId>& child, const std::vector<PoolId>& 
       continue;
     }
     go_on_or_throw(static_cast<std::size_t>(count));
+    ids_[place(count)] = id;
     first_[place(id)] = count++;
     open.back() = ~id;
     for (PoolId next = child[place(id)]; next != kNoPool; next = sibling[place(next)]) {
@@ -43,10 +47,26 @@ void Descent::walk(const std::vector<PoolId>& child, const std::vector<PoolId>& 
   }
 }
 
-Children::Children(const Descent& descent, const std::vector<PoolId>& by_first, PoolId parent)
-    : descent_(&descent) {
+/// A pool that has become part of another is its descendant: the other has the first of all their
+/// numbers, and the last end.
+void Descent::renumber(const std::vector<PoolId>& renamed, std::size_t count) {
+  std::vector<std::int32_t> first(count, std::numeric_limits<std::int32_t>::max());
+  std::vector<std::int32_t> end(count, 0);
+  for (std::size_t old = 0; old < renamed.size(); ++old) {
+    const auto now = static_cast<std::size_t>(renamed[old]);
+    first[now] = std::min(first[now], first_[old]);
+    end[now] = std::max(end[now], end_[old]);
+  }
+  for (std::size_t now = 0; now < count; ++now) {
+    ids_[static_cast<std::size_t>(first[now])] = static_cast<PoolId>(now);
+  }
+  first_ = std::move(first);
+  end_ = std::move(end);
+}
+
+Children::Children(const Descent& descent, PoolId parent) : descent_(&descent) {
   for (std::int32_t number = descent.first(parent) + 1; number < descent.end(parent);) {
-    ids_.push_back(by_first[static_cast<std::size_t>(number)]);
+    ids_.push_back(descent.numbered(number));
     number = descent.end(ids_.back());
   }
 }

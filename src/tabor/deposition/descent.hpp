@@ -9,10 +9,13 @@
 namespace tabor::deposition {
 
 /// Numbers the pools in the order of a walk through the tree of pools, in which all descendants of
-/// a pool follow it directly. Valid until pools get new numbers.
+/// a pool follow it directly.
 class Descent {
  public:
   explicit Descent(const Pools& pools);
+
+  /// Follows Pools::renumber(): pools that have become part of others leave gaps.
+  void renumber(const std::vector<PoolId>& renamed, std::size_t count);
 
   bool within(PoolId inner, PoolId outer) const {
     return first(outer) <= first(inner) && first(inner) < end(outer);
@@ -20,6 +23,7 @@ class Descent {
   /// Returns the numbers of a pool and its descendants: [first, end).
   std::int32_t first(PoolId id) const { return first_[static_cast<std::size_t>(id)]; }
   std::int32_t end(PoolId id) const { return end_[static_cast<std::size_t>(id)]; }
+  PoolId numbered(std::int32_t first) const { return ids_[static_cast<std::size_t>(first)]; }
 
  private:
   void walk(const std::vector<PoolId>& child, const std::vector<PoolId>& sibling,
@@ -27,13 +31,14 @@ class Descent {
 
   std::vector<std::int32_t> first_;
   std::vector<std::int32_t> end_;
+  std::vector<PoolId> ids_;  ///< by numbers; those of pools that are left
 };
 
 /// Pools that unite in one parent; finds the child that holds a descendant.
 class Children {
  public:
-  /// `by_first`: all pools, in the order of their numbers in `descent`.
-  Children(const Descent& descent, const std::vector<PoolId>& by_first, PoolId parent);
+  /// The parent holds no liquid yet: its children are pools of their own.
+  Children(const Descent& descent, PoolId parent);
 
   std::size_t count() const { return ids_.size(); }
   PoolId operator[](std::size_t place) const { return ids_[place]; }

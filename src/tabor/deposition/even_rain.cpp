@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <iterator>
-#include <numeric>
 #include <utility>
 
 #include "tabor/core/watch.hpp"
@@ -11,55 +10,6 @@
 
 namespace tabor::deposition {
 namespace {
-
-/// Pixels of a map by their pools, and in each from the lowest up, as its level reaches them.
-class PixelsOfPools {
- public:
-  /// Places of the pixels of one pool that have not been taken.
-  struct Part {
-    std::int32_t begin = 0;
-    std::int32_t end = 0;
-  };
-
-  PixelsOfPools() = default;  ///< no pixels
-  /// All pixels if the mask is empty.
-  PixelsOfPools(const Pools& pools, const Mask& where) : ends_(pools.count() + 1, 0) {
-    const Pixel n_pixels = pools.terrain().size();
-    const auto is_asked = [&where](Pixel p) { return where.size() == 0 || where.data()[p]; };
-    for (Pixel p = 0; p < n_pixels; ++p) {
-      if (is_asked(p)) ++ends_[place(pools.pool_at(p)) + 1];
-    }
-    std::partial_sum(ends_.begin(), ends_.end(), ends_.begin());
-    entries_.resize(place(ends_.back()));
-    std::vector<std::int32_t> next(ends_.begin(), ends_.end() - 1);
-    for (Pixel p = 0; p < n_pixels; ++p) {
-      if (is_asked(p)) entries_[place(next[place(pools.pool_at(p))]++)] = {pools.height(p), p};
-    }
-    for (std::size_t pool = 0; pool + 1 < ends_.size(); ++pool) {
-      if (ends_[pool] == ends_[pool + 1]) continue;
-      go_on_or_throw(pool);
-      std::sort(entries_.begin() + ends_[pool], entries_.begin() + ends_[pool + 1],
-                [](const Entry& a, const Entry& b) { return a.height < b.height; });
-    }
-  }
-
-  Part of(PoolId pool) const {
-    return ends_.empty() ? Part{} : Part{ends_[place(pool)], ends_[place(pool) + 1]};
-  }
-  Height height(std::int32_t entry) const { return entries_[place(entry)].height; }
-  Pixel pixel(std::int32_t entry) const { return entries_[place(entry)].pixel; }
-
- private:
-  struct Entry {
-    Height height;
-    Pixel pixel;
-  };
-
-  static std::size_t place(std::int32_t number) { return static_cast<std::size_t>(number); }
-
-  std::vector<Entry> entries_;
-  std::vector<std::int32_t> ends_;  ///< per pool where the entries of the one before end
-};
 
 /// Rains evenly, dose by dose, and notes which dose wets a pixel first. What a pool holds is
 /// proportional to the dose until it is full or another one spills into it: it is looked at only
@@ -70,7 +20,6 @@ class EvenRain {
   EvenRain(Pools& pools, std::vector<Volume> films, const FirstWetting& wetting)
       : pools_(pools),
         catchments_(pools),
-        dry_(wetting.films.empty() ? PixelsOfPools() : PixelsOfPools(pools, wetting.where)),
         wetting_(wetting),
         films_(std::move(films)),
         states_(pools.count()),
@@ -79,8 +28,9 @@ class EvenRain {
       state(source.pool).catchment = source.area;
       due_.front().push_back(source.pool);
     }
+    if (wetting.films.empty()) return;
     for (std::size_t i = 0; i < states_.size(); ++i) {
-      states_[i].dry = dry_.of(static_cast<PoolId>(i));
+      states_[i].dry = asked_from(pools_.places_of(static_cast<PoolId>(i)));
     }
   }
 
@@ -117,13 +67,13 @@ class EvenRain {
     std::int32_t catchment = 0;  ///< pixels whose rain it takes
     std::uint32_t n_rained = 0;  ///< doses whose rain it has taken
     std::uint32_t due = 0;       ///< dose at which it is looked at
-    PixelsOfPools::Part dry;     ///< its own pixels
+    Pools::Places dry = {};      ///< of its own pixels, from the lowest that is asked for
     std::int32_t rest = kNone;  ///< the first of rests_: pixels of its children at its lowest level
   };
 
   /// Dry pixels of a full pool, as high as its rim.
   struct Rest {
-    PixelsOfPools::Part dry;
+    Pools::Places dry;
     std::int32_t next = kNone;
   };
 
@@ -186,10 +136,20 @@ class EvenRain {
     }
   }
 
-  void wet(PixelsOfPools::Part& part, Height level) {
-    for (; part.begin < part.end && level > dry_.height(part.begin); ++part.begin) {
-      wetting_.first[static_cast<std::size_t>(dry_.pixel(part.begin))] = wets_;
+  void wet(Pools::Places& dry, Height level) {
+    while (dry.begin < dry.end && level > pools_.height_at(dry.begin)) {
+      wetting_.first[static_cast<std::size_t>(pools_.pixel_at(dry.begin))] = wets_;
+      ++dry.begin;
+      dry = asked_from(dry);
     }
+  }
+
+  /// Leaves out the first pixels, up to one that is asked for.
+  Pools::Places asked_from(Pools::Places dry) const {
+    const Mask& where = wetting_.where;
+    if (where.size() == 0) return dry;
+    while (dry.begin < dry.end && !where.data()[pools_.pixel_at(dry.begin)]) ++dry.begin;
+    return dry;
   }
 
   /// Gives the pixels as high as the rim of a full pool to its parent, whose level begins there.
@@ -224,13 +184,12 @@ class EvenRain {
   /// The level at which a pool wets another pixel; kNoRim if none is left.
   Height next_wetting_level(PoolId id) {
     const State& of = state(id);
-    if (of.rest != kNone) return dry_.height(rest(of.rest).dry.begin) + 1;
-    return of.dry.begin < of.dry.end ? dry_.height(of.dry.begin) + 1 : kNoRim;
+    if (of.rest != kNone) return pools_.height_at(rest(of.rest).dry.begin) + 1;
+    return of.dry.begin < of.dry.end ? pools_.height_at(of.dry.begin) + 1 : kNoRim;
   }
 
   Pools& pools_;
   Catchments catchments_;
-  PixelsOfPools dry_;
   const FirstWetting& wetting_;
   std::vector<Volume> films_;  ///< all doses, each once, rising [quanta]
   std::size_t dose_ = 0;

@@ -21,7 +21,7 @@ struct FirstWetting {
 void rain_evenly(Pools& pools, const std::vector<Volume>& films, const DoseReached& reached,
                  const Observer& observer);
 
-/// Finds in the same run which dose wets a pixel first.
+/// Finds in the same run which dose wets a pixel first. The pools must list pixels.
 void rain_evenly(Pools& pools, const std::vector<Volume>& films, const DoseReached& reached,
                  const FirstWetting& wetting, const Observer& observer);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "tabor/core/loops.hpp"
 #include "tabor/core/rows.hpp"
 #include "tabor/core/watch.hpp"
 #include "tabor/numerics/disjoint_sets.hpp"
@@ -40,9 +41,12 @@ Index count_wet_regions(const Field& thickness, bool periodic) {
 
 void measure(Film& film, Edge edge) {
   film.n_pools = count_wet_regions(film.thickness, edge == Edge::periodic);
-  film.wet_fraction = static_cast<double>((film.thickness > 0).count()) /
-                      static_cast<double>(film.thickness.size());
-  film.max_film = film.thickness.maxCoeff();
+  const double* const thickness = film.thickness.data();
+  const Index n = film.thickness.size();
+  film.wet_fraction =
+      static_cast<double>(count_where(n, [thickness](Index i) { return thickness[i] > 0; })) /
+      static_cast<double>(n);
+  film.max_film = max_over(n, [thickness](Index i) { return thickness[i]; });
 }
 
 }  // namespace tabor::deposition

@@ -1,48 +1,24 @@
 #include "tabor/deposition/pool_builder.hpp"
-#include "tabor/core/error.hpp"
-#include "tabor/core/large_pages.hpp"
-#include "tabor/core/parallel.hpp"
-#include "tabor/core/watch.hpp"
 
 #include <algorithm>
-#include <array>
 #include <limits>
+#include <numeric>
+#include <span>
 #include <string>
 #include <utility>
+
+#include "tabor/core/error.hpp"
+#include "tabor/core/large_pages.hpp"
+#include "tabor/core/loops.hpp"
+#include "tabor/core/parallel.hpp"
+#include "tabor/core/watch.hpp"
 
 namespace tabor::deposition {
 namespace {
 
-// Pixels in order of height lie anywhere: how many ahead of its turn one is asked of the memory.
-constexpr std::size_t kNear = 16;
+// Saddles lie anywhere: how many ahead of its turn the memory is asked for one.
+constexpr std::size_t kNear = 12;
 constexpr std::size_t kFar = 24;
-
-constexpr std::size_t kDigits = 2048;    // of a pass of the radix sort
-constexpr Index kBlockOfKeys = 1 << 20;  // that one thread sorts
-
-/// Stable sort of `keys` by bits [shift, shift + 11), from `keys` to `sorted`. Blocks of keys are
-/// counted, and then moved, side by side.
-void radix_pass(const std::vector<std::uint64_t>& keys, std::vector<std::uint64_t>& sorted,
-                int shift) {
-  const auto n = static_cast<Index>(keys.size());
-  const auto digit = [&](Index i) {
-    return (keys[static_cast<std::size_t>(i)] >> shift) & (kDigits - 1);
-  };
-  const auto block = [](Index i) { return static_cast<std::size_t>(i / kBlockOfKeys); };
-  std::vector<std::array<std::uint32_t, kDigits>> start(block(n) + 1);
-  parallel_for(n, kBlockOfKeys, [&](Index begin, Index end) {
-    for (Index i = begin; i < end; ++i) ++start[block(i)][digit(i)];
-  });
-  std::uint32_t total = 0;
-  for (std::size_t d = 0; d < kDigits; ++d) {
-    for (auto& of_block : start) total += std::exchange(of_block[d], total);
-  }
-  parallel_for(n, kBlockOfKeys, [&](Index begin, Index end) {
-    for (Index i = begin; i < end; ++i) {
-      sorted[start[block(i)][digit(i)]++] = keys[static_cast<std::size_t>(i)];
-    }
-  });
-}
 
 /// Throws InputError where the places of all heights, one a pixel and one a pool, are more than an
 /// index of them counts.
@@ -53,176 +29,186 @@ void check_places(std::size_t n_places) {
                    std::to_string(kMost) + " at most", "take fewer pixels, or smooth the surface");
 }
 
-/// Pixels without a lower neighbour, equal heights by pixel number: each begins a pool.
-std::size_t count_minima(const Terrain& terrain) {
-  const auto is_lower = [&](Pixel q, Pixel p) {
-    const Height height_q = terrain.height[static_cast<std::size_t>(q)];
-    const Height height_p = terrain.height[static_cast<std::size_t>(p)];
-    return height_q < height_p || (height_q == height_p && q < p);
-  };
-  const auto count = [&](Index begin, Index end) {
-    double n = 0;
-    for (auto p = static_cast<Pixel>(begin); p < end; ++p) {
-      bool is_minimum = true;
-      for_each_neighbour(terrain, p, [&](Pixel q) {
-        is_minimum = is_minimum && q != kOutside && !is_lower(q, p);
-      });
-      n += is_minimum ? 1 : 0;
-    }
-    return n;
-  };
-  return static_cast<std::size_t>(deterministic_sum(terrain.size(), count));
-}
-
 }  // namespace
 
-std::vector<Pixel> ascending_pixels(const Terrain& terrain) {
-  const auto n = static_cast<std::size_t>(terrain.size());
-  std::vector<std::uint64_t> keys;
-  reserve_large_pages(keys, n);
-  keys.resize(n);
-  parallel_for(terrain.size(), kBlock, [&](Index begin, Index end) {
-    for (auto p = static_cast<std::size_t>(begin); p < static_cast<std::size_t>(end); ++p) {
-      const auto unsigned_height = static_cast<std::uint32_t>(terrain.height[p]) ^ 0x80000000U;
-      keys[p] = (std::uint64_t{unsigned_height} << 32) | p;
-    }
-  });
-  {
-    std::vector<std::uint64_t> sorted;
-    reserve_large_pages(sorted, n);
-    sorted.resize(n);
-    for (const int shift : {32, 43, 54}) {  // pixel numbers, the low half, are in order already
-      go_on_or_throw();
-      radix_pass(keys, sorted, shift);
-      keys.swap(sorted);
-    }
-  }
-  std::vector<Pixel> order(n);
-  std::transform(keys.begin(), keys.end(), order.begin(),
-                 [](std::uint64_t key) { return static_cast<Pixel>(key & 0xFFFFFFFFU); });
-  return order;
-}
-
 void PoolBuilder::build() {
+  Basins basins = find_basins(to_.terrain());
+  join_basins(basins);
+  go_on_or_throw();
+  const Branches branches(std::move(tree_));
+  place_pixels(basins.of_pixel, branches);
+  go_on_or_throw();
+  make_pools(branches, std::move(basins.of_pixel));
+  go_on_or_throw();
+  make_arcs();
+}
+
+/// From the lowest saddle to the highest.
+void PoolBuilder::join_basins(Basins& basins) {
+  sort_by_height(basins.saddles);
+  const std::size_t n_leaves = basins.bottoms.size();
+  const std::size_t n_most = 2 * n_leaves;  // a merger unites two at least
+  reserve_large_pages(tree_.base, n_most);
+  reserve_large_pages(tree_.parent, n_most);
+  reserve_large_pages(tree_.spills_to, n_most);
+  for (const Rank bottom : basins.bottoms) tree_.add(bottom);
+  tree_.n_leaves = n_leaves;
+  joined_ = numerics::DisjointSets<PoolId>(n_leaves);
+  largest_.resize(n_leaves);
+  std::iota(largest_.begin(), largest_.end(), 0);
+  for (std::size_t i = 0; i < basins.saddles.size(); ++i) {
+    go_on_or_throw(i);
+    prefetch(basins, i);
+    find_sides(basins.saddles[i], basins.of_pixel);
+    if (sides_.size() > 1) join_sides(basins.saddles[i]);
+  }
+  release(basins.saddles);
+  release(basins.bottoms);
+  joined_ = numerics::DisjointSets<PoolId>();
+  release(largest_);
+}
+
+/// Asks the memory for what the next saddles need: first heights and basins, the rows above and
+/// below, as the neighbours in the row most likely come with the pixel itself; then the sets.
+void PoolBuilder::prefetch(const Basins& basins, std::size_t i) const {
   const Terrain& terrain = to_.terrain();
-  std::vector<Pixel> ascending = ascending_pixels(terrain);
-  reserve_large_pages(to_.sites_, ascending.size());
-  to_.sites_.resize(ascending.size());
-  parallel_for(terrain.size(), kBlock, [&](Index begin, Index end) {
-    for (auto p = static_cast<std::size_t>(begin); p < static_cast<std::size_t>(end); ++p) {
-      to_.sites_[p].height = terrain.height[p];
+  const auto of_row = [&](Pixel p, Pixel rows) {
+    return static_cast<std::size_t>(std::clamp(p + rows * terrain.nx, 0, terrain.size() - 1));
+  };
+  if (i + kFar < basins.saddles.size()) {
+    const Pixel p = pixel_of(basins.saddles[i + kFar]);
+    for (const Pixel rows : {0, -1, 1}) {
+      __builtin_prefetch(&basins.of_pixel[of_row(p, rows)]);
+      __builtin_prefetch(&terrain.height[of_row(p, rows)]);
+    }
+  }
+  if (i + kNear < basins.saddles.size()) {
+    const Pixel p = pixel_of(basins.saddles[i + kNear]);
+    for (const Pixel rows : {-1, 1}) joined_.prefetch(basins.of_pixel[of_row(p, rows)]);
+  }
+}
+
+void PoolBuilder::find_sides(Rank saddle, const UnwrittenVector<PoolId>& basin_of) {
+  sides_.clear();
+  for_each_neighbour(to_.terrain(), pixel_of(saddle), [&](Pixel q) {
+    const auto place = static_cast<std::size_t>(q);
+    const Rank rank = q == kOutside ? 0 : rank_of(to_.terrain().height[place], q);
+    if (rank >= saddle) return;
+    const PoolId drains = q == kOutside ? kOcean : basin_of[place];
+    const PoolId root = joined_.root(drains);
+    const auto known = std::find_if(sides_.begin(), sides_.end(),
+                                    [root](const Side& side) { return side.root == root; });
+    if (known == sides_.end()) {
+      sides_.push_back({root, rank, drains});
+    } else if (rank < known->lowest) {
+      *known = {root, rank, drains};
     }
   });
-  const std::size_t n_most = 2 * count_minima(terrain) + 1;  // a merger unites two at least
-  reserve_large_pages(to_.pools_, n_most);
-  reserve_large_pages(to_.growth_, n_most);
-  reserve_large_pages(into_, n_most);
-  if (terrain.edge == Edge::open) new_pool(kDry);  // the ocean
-  for (std::size_t i = 0; i < ascending.size(); ++i) {
-    go_on_or_throw(i);
-    prefetch_neighbours(ascending, i + kFar);
-    add(ascending[i]);
+}
+
+/// The largest pools on all sides become children of a new one whose lowest pixel is the saddle.
+void PoolBuilder::join_sides(Rank saddle) {
+  const PoolId joined = tree_.add(saddle);
+  PoolId root = sides_.front().root;
+  for (const Side& side : sides_) {
+    const auto pool = static_cast<std::size_t>(largest_[static_cast<std::size_t>(side.root)]);
+    tree_.parent[pool] = joined;
+    if (sides_.size() == 2) {
+      tree_.spills_to[pool] = (&side == &sides_.front() ? sides_.back() : sides_.front()).drains;
+    }
+    root = joined_.join(root, side.root).root;
   }
-  to_.last_ = grown(pool_at(0));
-  release(into_);
-  go_on_or_throw();
-  const std::vector<PoolId> number = to_.number_by_place();
-  to_.growth_ = in_order(to_.growth_, number, to_.count());
-  go_on_or_throw();
-  make_arcs(ascending);
+  largest_[static_cast<std::size_t>(root)] = joined;
 }
 
-PoolId PoolBuilder::grown(PoolId id) {
-  const auto into = [this](PoolId of) -> PoolId& { return into_[static_cast<std::size_t>(of)]; };
-  while (into(id) != id) id = into(id) = into(into(id));
-  return id;
-}
-
-PoolId PoolBuilder::new_pool(Height base) {
-  const auto id = static_cast<PoolId>(to_.pools_.size());
-  Pool& added = to_.pools_.emplace_back();
-  added.level = base;
-  into_.push_back(id);
-  to_.growth_.emplace_back();
-  return id;
-}
-
-void PoolBuilder::prefetch_site(const std::vector<Pixel>& ascending, std::size_t place) const {
-  if (place < ascending.size()) {
-    __builtin_prefetch(&to_.sites_[static_cast<std::size_t>(ascending[place])]);
-  }
-}
-
-/// The rows above and below; the neighbours in the row most likely come with the pixel itself.
-void PoolBuilder::prefetch_neighbours(const std::vector<Pixel>& ascending,
-                                      std::size_t place) const {
-  if (place >= ascending.size()) return;
-  const Pixel p = ascending[place];
-  const Pixel nx = to_.terrain().nx;
-  for (const Pixel q : {p, std::max(p - nx, 0), std::min(p + nx, to_.terrain().size() - 1)}) {
-    __builtin_prefetch(&to_.sites_[static_cast<std::size_t>(q)]);
-  }
-}
-
-void PoolBuilder::add(Pixel p) {
-  const Height height = to_.height(p);
-  meeting_.clear();
-  PoolId last = kNoPool;  // most neighbours are in one pool
-  for_each_neighbour(to_.terrain(), p, [&](Pixel q) {
-    const PoolId at = q == kOutside ? kOcean : pool_at(q);
-    if (at == kNoPool || at == last) return;
-    last = at;
-    const PoolId top = grown(at);
-    if (std::find(meeting_.begin(), meeting_.end(), top) == meeting_.end()) meeting_.push_back(top);
+void PoolBuilder::place_pixels(const UnwrittenVector<PoolId>& basin_of, const Branches& branches) {
+  const std::vector<Height>& heights = to_.terrain().height;
+  to_.sites_.resize(heights.size());
+  for_each(to_.terrain().size(), [&](Pixel p) {
+    const auto place = static_cast<std::size_t>(p);
+    const Height height = heights[place];
+    to_.sites_[place] = {height, branches.pool_of(basin_of[place], rank_of(height, p))};
   });
-  if (meeting_.empty()) {
-    pool_at(p) = new_pool(height);
-  } else {
-    pool_at(p) = meeting_.size() == 1 ? meeting_.front() : merge(height);
-  }
 }
 
-/// The pools in meeting_ become children of a new one whose lowest pixel is at `base`.
-PoolId PoolBuilder::merge(Height base) {
-  const PoolId into = new_pool(base);
-  for (const PoolId id : meeting_) {
-    pool(id).parent = into_[static_cast<std::size_t>(id)] = into;
-    ++growth(into).open_children;
-  }
-  return into;
+/// Pools begin with the height of their lowest pixel as their level.
+void PoolBuilder::make_pools(const Branches& branches, UnwrittenVector<PoolId>&& basin_of) {
+  to_.last_ = branches.last();
+  const Pools::Numbers numbers = to_.number_by_place(branches.count());
+  to_.pools_.resize(numbers.count());
+  to_.growth_.resize(numbers.count());
+  for_each(numbers.count(), [&](std::size_t i) {
+    const PoolId before = numbers.before[i];
+    const Rank base = branches.base(before);
+    to_.pools_[i] = {.parent = numbers.of(branches.parent(before)),
+                     .level = height_of(base),
+                     .overflow = {.end = numbers.of(branches.spills_to(before))}};
+    to_.growth_[i] = {.lowest = pixel_of(base)};
+  });
+  const auto leaf = [&](PoolId basin) { return numbers.of(branches.leaf(basin)); };
+  for_each(static_cast<PoolId>(branches.n_leaves()),
+           [&](PoolId basin) { growth(leaf(basin)).lowest = Growth::kNoPlace; });
+  to_.drains_to_ = std::move(basin_of);
+  for_each(to_.terrain().size(), [&](Pixel p) {
+    PoolId& drains_to = to_.drains_to_[static_cast<std::size_t>(p)];
+    drains_to = leaf(drains_to);
+  });
 }
 
-void PoolBuilder::make_arcs(const std::vector<Pixel>& ascending) {
+/// Puts all heights in their places, those of each pool in order.
+void PoolBuilder::make_arcs() {
   check_places(to_.sites_.size() + to_.pools_.size());
-  for (const auto& site : to_.sites_) ++growth(site.pool).next;
+  std::vector<std::int32_t> next(to_.count(), 0);  // place for a pixel of each pool
+  for (const auto& site : to_.sites_) ++next[static_cast<std::size_t>(site.pool)];
   std::int32_t begin = 0;
-  for (Growth& each : to_.growth_) {
-    each.rim = begin + each.next;
-    each.next = std::exchange(begin, each.rim + 1);
+  for (std::size_t id = 0; id < next.size(); ++id) {
+    const std::int32_t n = std::exchange(next[id], begin);
+    to_.growth_[id].rim = begin + n;
+    begin += n + 1;
   }
-  const auto n_places = static_cast<std::size_t>(begin);
-  reserve_large_pages(to_.arcs_, n_places);
-  to_.arcs_.resize(n_places);
-  fill_arcs(ascending);
-  for (std::size_t id = 0; id < to_.pools_.size(); ++id) {
-    const PoolId parent = to_.pools_[id].parent;
-    to_.arcs_[static_cast<std::size_t>(to_.growth_[id].rim)] =
-        parent == kNoPool ? kNoRim : pool(parent).level;
+  to_.arcs_.resize(static_cast<std::size_t>(begin));
+  if (lists_pixels_) to_.listed_.resize(to_.arcs_.size());
+  const auto count = static_cast<Index>(to_.count());
+  parallel_for(count, std::max(kBlock, count / thread_count() + 1), [&](Index first, Index end) {
+    fill_arcs(static_cast<PoolId>(first), static_cast<PoolId>(end), next);
+  });
+  for_each(static_cast<PoolId>(count), [&](PoolId id) { finish_arcs(id); });
+}
+
+/// Fills the pools [first, end): each thread goes through all pixels for its part of the pools.
+void PoolBuilder::fill_arcs(PoolId first, PoolId end, std::vector<std::int32_t>& next) {
+  for (std::size_t p = 0; p < to_.sites_.size(); ++p) {
+    const auto& site = to_.sites_[p];
+    if (site.pool < first || site.pool >= end) continue;
+    const auto place = static_cast<std::size_t>(next[static_cast<std::size_t>(site.pool)]++);
+    to_.arcs_[place] = site.height;
+    if (lists_pixels_) to_.listed_[place] = static_cast<Pixel>(p);
   }
 }
 
-/// Puts all heights in their places and finds the lowest pixels of all pools but leaves.
-void PoolBuilder::fill_arcs(const std::vector<Pixel>& ascending) {
-  for (std::size_t i = 0; i < ascending.size(); ++i) {
-    go_on_or_throw(i);
-    prefetch_site(ascending, i + kNear);
-    const Pixel p = ascending[i];
-    const auto& site = to_.sites_[static_cast<std::size_t>(p)];
-    Growth& at = growth(site.pool);
-    to_.arcs_[static_cast<std::size_t>(at.next++)] = site.height;
-    const bool is_saddle = at.open_children > 0 && at.lowest == Growth::kNoPlace;
-    if (is_saddle) at.lowest = p;
+void PoolBuilder::finish_arcs(PoolId id) {
+  const auto [begin, end] = to_.places_of(id);
+  if (lists_pixels_) {
+    sort_listed(static_cast<std::size_t>(begin), static_cast<std::size_t>(end));
+  } else {
+    sort_heights(std::span(to_.arcs_).subspan(static_cast<std::size_t>(begin),
+                                              static_cast<std::size_t>(end - begin)));
   }
+  const PoolId parent = to_[id].parent;
+  to_.arcs_[static_cast<std::size_t>(end)] = parent == kNoPool ? kNoRim : to_[parent].level;
+}
+
+/// Sorts heights and pixels at these places together.
+void PoolBuilder::sort_listed(std::size_t begin, std::size_t end) {
+  thread_local std::vector<Rank> ranks;
+  ranks.clear();
+  for (std::size_t i = begin; i < end; ++i) ranks.push_back(rank_of(to_.arcs_[i], to_.listed_[i]));
+  sort_by_height(ranks);
+  for (std::size_t i = begin; i < end; ++i) {
+    to_.arcs_[i] = height_of(ranks[i - begin]);
+    to_.listed_[i] = pixel_of(ranks[i - begin]);
+  }
+  if (ranks.size() > kBlock) release(ranks);
 }
 
 }  // namespace tabor::deposition

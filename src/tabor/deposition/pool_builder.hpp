@@ -2,39 +2,48 @@
 
 #include <vector>
 
+#include "tabor/deposition/basins.hpp"
+#include "tabor/deposition/branches.hpp"
 #include "tabor/deposition/pools.hpp"
+#include "tabor/numerics/disjoint_sets.hpp"
 
-// Builds the tree of pools of a surface from its sorted heights, by union-find. Ties are ordered.
+// Builds the tree of pools of a surface, by union-find over its saddles. Ties are ordered.
 namespace tabor::deposition {
 
-/// Returns all pixels, ascending in (height, pixel number). Radix sort; needs 16 bytes per pixel
-/// meanwhile.
-std::vector<Pixel> ascending_pixels(const Terrain& terrain);
-
-/// Builds all pools in one pass: pixels are added from the lowest to the highest, and pools that
-/// meet at a pixel become children of a new one (the merge tree of the sublevel sets, by
-/// union-find).
+/// Builds all pools: each lowest place begins one, and those that meet at a saddle become children
+/// of a new one (the merge tree of the sublevel sets, from its critical pixels alone, as Chiang,
+/// Lenz, Lu & Rote 2005 build contour trees). Then each pixel finds its pool.
 class PoolBuilder {
  public:
-  explicit PoolBuilder(Pools& result) : to_(result) {}
+  PoolBuilder(Pools& result, bool lists_pixels) : to_(result), lists_pixels_(lists_pixels) {}
   void build();
 
  private:
-  PoolId grown(PoolId id);  ///< what `id` has merged into so far
-  void add(Pixel p);
-  void prefetch_site(const std::vector<Pixel>& ascending, std::size_t place) const;
-  void prefetch_neighbours(const std::vector<Pixel>& ascending, std::size_t place) const;
-  PoolId new_pool(Height base);
-  PoolId merge(Height base);
-  void make_arcs(const std::vector<Pixel>& ascending);
-  void fill_arcs(const std::vector<Pixel>& ascending);
-  Pool& pool(PoolId id) { return to_.pools_[static_cast<std::size_t>(id)]; }
+  /// Set of basins that reaches a saddle.
+  struct Side {
+    PoolId root;    ///< of the set
+    Rank lowest;    ///< its lowest neighbour of the saddle
+    PoolId drains;  ///< the basin of that one
+  };
+
+  void join_basins(Basins& basins);
+  void find_sides(Rank saddle, const UnwrittenVector<PoolId>& basin_of);
+  void join_sides(Rank saddle);
+  void prefetch(const Basins& basins, std::size_t i) const;
+  void place_pixels(const UnwrittenVector<PoolId>& basin_of, const Branches& branches);
+  void make_pools(const Branches& branches, UnwrittenVector<PoolId>&& basin_of);
+  void make_arcs();
+  void fill_arcs(PoolId first, PoolId end, std::vector<std::int32_t>& next);
+  void finish_arcs(PoolId id);
+  void sort_listed(std::size_t begin, std::size_t end);
   Growth& growth(PoolId id) { return to_.growth_[static_cast<std::size_t>(id)]; }
-  PoolId& pool_at(Pixel p) { return to_.sites_[static_cast<std::size_t>(p)].pool; }
 
   Pools& to_;
-  std::vector<PoolId> into_;     ///< per pool: itself, or a step towards what it has merged into
-  std::vector<PoolId> meeting_;  ///< pools around the pixel being added
+  bool lists_pixels_;
+  PoolTree tree_;
+  numerics::DisjointSets<PoolId> joined_;  ///< basins, as far as they have met
+  std::vector<PoolId> largest_;            ///< per set of them, at its root: the pool of all
+  std::vector<Side> sides_;                ///< of the saddle that is looked at
 };
 
 }  // namespace tabor::deposition

@@ -9,8 +9,8 @@
 
 namespace tabor::deposition {
 
-Pools::Pools(const Terrain& terrain, Ties ties) : terrain_(&terrain) {
-  PoolBuilder(*this).build();
+Pools::Pools(const Terrain& terrain, Ties ties, bool lists_pixels) : terrain_(&terrain) {
+  PoolBuilder(*this, lists_pixels).build();
   if (ties == Ties::connected) {
     connect_ties();
   } else {
@@ -19,6 +19,8 @@ Pools::Pools(const Terrain& terrain, Ties ties) : terrain_(&terrain) {
 }
 
 void Pools::connect_ties() {
+  release(drains_to_);
+  release(listed_);
   TieConnector(*this).connect();
   remove_liquid();
 }
@@ -29,13 +31,15 @@ void Pools::connect_ties() {
 void Pools::remove_liquid() {
   const bool has_ocean = terrain_->edge == Edge::open;
   const auto count = static_cast<PoolId>(pools_.size());
-  std::int32_t begin = 0;
-  for (PoolId id = 0; id < count; ++id) {
-    Growth& growth = growth_[static_cast<std::size_t>(id)];
-    growth.open_children = 0;
-    growth.next = std::exchange(begin, growth.rim + 1);
-    pools_[static_cast<std::size_t>(id)] = {.parent = (*this)[id].parent, .owner = id};
-  }
+  parallel_for(count, kBlock, [&](Index begin, Index end) {
+    for (auto id = static_cast<PoolId>(begin); id < end; ++id) {
+      Growth& growth = growth_[static_cast<std::size_t>(id)];
+      growth.open_children = 0;
+      growth.next = first_arc(id);
+      Pool& pool = pools_[static_cast<std::size_t>(id)];
+      pool = {.parent = pool.parent, .owner = id, .overflow = pool.overflow};
+    }
+  });
   for (const Pool& child : pools_) {
     if (child.parent != kNoPool) ++growth_[static_cast<std::size_t>(child.parent)].open_children;
   }
@@ -53,24 +57,24 @@ void Pools::remove_liquid() {
   for (const PoolId leaf : leaves) take_in(leaf);
 }
 
-/// Numbers pools in the order in which a walk along the rows meets them, so that pools of
-/// neighbouring pixels are neighbours in memory; pools without pixels vanish. Returns the new
-/// numbers, by which their growth is still to be ordered.
-std::vector<PoolId> Pools::number_by_place() {
-  std::vector<PoolId> number(pools_.size(), kNoPool);
-  PoolId count = 0;
-  if (terrain_->edge == Edge::open) number[kOcean] = count++;
-  for (Site& site : sites_) {
-    PoolId& renamed = number[static_cast<std::size_t>(site.pool)];
-    if (renamed == kNoPool) renamed = count++;
-    site.pool = renamed;
-  }
-  last_ = number[static_cast<std::size_t>(last_)];
-  pools_ = in_order(pools_, number, static_cast<std::size_t>(count));
-  for (Pool& each : pools_) {
-    if (each.parent != kNoPool) each.parent = number[static_cast<std::size_t>(each.parent)];
-  }
-  return number;
+/// Numbers n pools in the order in which a walk along the rows meets them, so that pools of
+/// neighbouring pixels are neighbours in memory; those without pixels vanish. The pixels get the
+/// new numbers at once; the pools are still to be put in order.
+Pools::Numbers Pools::number_by_place(std::size_t n) {
+  Numbers numbers{.now = std::vector<PoolId>(n, kNoPool), .before = {}};
+  numbers.before.reserve(n);
+  const auto number = [&numbers](PoolId old) {
+    PoolId& now = numbers.now[static_cast<std::size_t>(old)];
+    if (now == kNoPool) {
+      now = static_cast<PoolId>(numbers.before.size());
+      numbers.before.push_back(old);
+    }
+    return now;
+  };
+  if (terrain_->edge == Edge::open) number(kOcean);
+  for (Site& site : sites_) site.pool = number(site.pool);
+  last_ = numbers.of(last_);
+  return numbers;
 }
 
 void Pools::shorten(PoolId id, PoolId root) {

@@ -40,7 +40,8 @@ struct alignas(32) Pool {
   Height stop = kNoRim;     ///< where it next takes in pixels, or its rim
   std::int32_t area = 0;    ///< pixels under or at the level; before it is active, of full children
   std::int32_t remainder = 0;  ///< liquid above the level, less than one quantum over the area
-  FlowPath overflow = {};      ///< when it is full: where the overflow ran last
+  FlowPath overflow = {};      ///< when it is full: where the overflow ran last; with ordered ties
+                               ///< before that a leaf on its path, or kNoPool
 
   /// True where the pool holds liquid. Not defined for the ocean, whose level lies below
   /// everything.
@@ -66,8 +67,9 @@ struct Growth {
 /// that liquid is conserved exactly.
 class Pools {
  public:
-  /// `terrain` must outlive the pools, but its heights are copied and may be released.
-  Pools(const Terrain& terrain, Ties ties);
+  /// `terrain` must outlive the pools, but its heights are copied and may be released. Lists of
+  /// pixels can be had while ties are ordered.
+  Pools(const Terrain& terrain, Ties ties, bool lists_pixels = false);
 
   /// Removes all liquid from pools with ordered ties and connects the ties, which is faster than to
   /// build pools anew. Not after renumber(), which removes pools.
@@ -79,6 +81,19 @@ class Pools {
   /// Returns the smallest pool that the pixel can ever be part of.
   PoolId pool_at(Pixel p) const { return sites_[static_cast<std::size_t>(p)].pool; }
   Height height(Pixel p) const { return sites_[static_cast<std::size_t>(p)].height; }
+  /// Returns the leaf that steepest descent from the pixel leads to, or kOcean. Only while ties are
+  /// ordered.
+  PoolId drains_to(Pixel p) const { return drains_to_[static_cast<std::size_t>(p)]; }
+
+  /// Places of the pixels of one pool alone, from the lowest up.
+  struct Places {
+    std::int32_t begin = 0;
+    std::int32_t end = 0;
+  };
+  Places places_of(PoolId id) const { return {first_arc(id), growth(id).rim}; }
+  Height height_at(std::int32_t place) const { return arc(place); }
+  /// Returns the pixel at a place; for pools that list pixels.
+  Pixel pixel_at(std::int32_t place) const { return listed_[static_cast<std::size_t>(place)]; }
 
   /// Returns the pool that now holds the liquid of `id`; `id` itself while it is not active.
   PoolId owner(PoolId id) {
@@ -161,8 +176,19 @@ class Pools {
 
   /// Height and pool stand together because they are read together, in random order.
   struct Site {
-    Height height = 0;
-    PoolId pool = kNoPool;
+    Height height;
+    PoolId pool;
+  };
+
+  /// New numbers of pools.
+  struct Numbers {
+    std::vector<PoolId> now;     ///< per old number; kNoPool for a pool that vanishes
+    std::vector<PoolId> before;  ///< per new number
+
+    std::size_t count() const { return before.size(); }
+    PoolId of(PoolId old) const {
+      return old == kNoPool ? kNoPool : now[static_cast<std::size_t>(old)];
+    }
   };
 
   PoolId step_up(PoolId id) const {
@@ -175,7 +201,7 @@ class Pools {
   std::int32_t first_arc(PoolId id) const { return id == 0 ? 0 : growth(id - 1).rim + 1; }
   Height arc(std::int32_t place) const { return arcs_[static_cast<std::size_t>(place)]; }
   void remove_liquid();
-  std::vector<PoolId> number_by_place();
+  Numbers number_by_place(std::size_t n);
   void shorten(PoolId id, PoolId root);
   void take_in(PoolId id);
   bool fill_up(PoolId id);
@@ -183,28 +209,17 @@ class Pools {
   const Terrain* terrain_;
   PoolId last_ = kNoPool;  ///< the one that holds all others
   PoolId n_filling_ = 0;   ///< active pools that are not full, the ocean not counted
-  std::vector<Pool> pools_;
-  std::vector<Growth> growth_;   ///< per pool
+  LargeVector<Pool> pools_;
+  LargeVector<Growth> growth_;   ///< per pool
   std::vector<PoolId> closed_;   ///< see take_closed()
   std::vector<PoolId> changed_;  ///< see take_changed()
-  std::vector<Site> sites_;
-  std::vector<Height> arcs_;  ///< heights of the pixels of each pool alone, ascending, and its rim
-  std::vector<Pixel> saddles_;  ///< saddles of several pixels: their number, then the pixels
+  LargeVector<Site> sites_;
+  UnwrittenVector<PoolId> drains_to_;  ///< see drains_to()
+  LargeVector<Height> arcs_;  ///< heights of the pixels of each pool alone, ascending, and its rim
+  UnwrittenVector<Pixel> listed_;  ///< the pixels at the same places; empty where none are listed
+  std::vector<Pixel> saddles_;     ///< saddles of several pixels: their number, then the pixels
   Volume beyond_ = 0;
   std::int64_t n_steps_ = 0;
 };
-
-/// Returns what each of `all` is, at its new number, where it has one.
-template <typename Each>
-std::vector<Each> in_order(const std::vector<Each>& all, const std::vector<PoolId>& number,
-                           std::size_t count) {
-  std::vector<Each> ordered;
-  reserve_large_pages(ordered, count);
-  ordered.resize(count);
-  for (std::size_t id = 0; id < number.size(); ++id) {
-    if (number[id] != kNoPool) ordered[static_cast<std::size_t>(number[id])] = all[id];
-  }
-  return ordered;
-}
 
 }  // namespace tabor::deposition

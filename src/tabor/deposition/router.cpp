@@ -64,6 +64,7 @@ PoolId Router::follow(Target at) {
 void Router::settle() {
   cuts_.forget();
   const std::vector<PoolId> renamed = pools_.renumber();
+  descent_.renumber(renamed, pools_.count());
   slopes_.settle(pools_, renamed);
   saddles_.forget();
 }

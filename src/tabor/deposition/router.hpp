@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "tabor/deposition/cut_paths.hpp"
+#include "tabor/deposition/descent.hpp"
 #include "tabor/deposition/saddles.hpp"
 #include "tabor/deposition/slopes.hpp"
 
@@ -21,7 +22,12 @@ namespace tabor::deposition {
 /// are cut there (cut_paths.hpp).
 class Router {
  public:
-  explicit Router(Pools& pools) : pools_(pools), slopes_(pools), saddles_(pools), cuts_(pools) {}
+  explicit Router(Pools& pools)
+      : pools_(pools),
+        descent_(pools),
+        slopes_(pools, descent_),
+        saddles_(pools, descent_),
+        cuts_(pools) {}
 
   using Target = Slopes::Target;
 
@@ -56,6 +62,7 @@ class Router {
   Target toward(const Candidate& candidate) const;
 
   Pools& pools_;
+  Descent descent_;
   Slopes slopes_;
   Saddles saddles_;
   std::vector<Step> trail_;

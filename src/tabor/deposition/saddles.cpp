@@ -187,22 +187,9 @@ Saddle& Saddles::at(PoolId above) {
     if (known != saddles_.end()) known->second.close(closed);
   }
   if (const auto known = saddles_.find(above); known != saddles_.end()) return known->second;
-  if (!descent_) {
-    descent_.emplace(pools_);
-    by_first_.resize(pools_.count());
-    const auto n = static_cast<PoolId>(pools_.count());
-    for (PoolId id = 0; id < n; ++id) by_first_[static_cast<std::size_t>(descent_->first(id))] = id;
-    n_looks_ += n;
-  }
-  Children children(*descent_, by_first_, above);
+  Children children(descent_, above);
   n_looks_ += static_cast<std::int64_t>(children.count());
   return saddles_.try_emplace(above, pools_, above, std::move(children), n_looks_).first->second;
-}
-
-void Saddles::forget() {
-  saddles_.clear();
-  descent_.reset();
-  by_first_ = {};
 }
 
 }  // namespace tabor::deposition

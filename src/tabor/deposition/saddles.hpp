@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <unordered_map>
 #include <vector>
@@ -88,7 +87,7 @@ class Saddle {
 /// All saddles of several pixels that droplets have come to.
 class Saddles {
  public:
-  explicit Saddles(Pools& pools) : pools_(pools) {}
+  Saddles(Pools& pools, const Descent& descent) : pools_(pools), descent_(descent) {}
   Saddles(const Saddles&) = delete;  // each saddle counts looks here
   Saddles& operator=(const Saddles&) = delete;
 
@@ -98,7 +97,7 @@ class Saddles {
   Drain drain_of_child(PoolId above, PoolId child) { return at(above).drain_of_child(child); }
 
   /// Discards all saddles; to be called when pools get new numbers.
-  void forget();
+  void forget() { saddles_.clear(); }
 
   /// Returns the number of places visited so far: the same on every machine.
   std::int64_t n_looks() const { return n_looks_; }
@@ -107,8 +106,7 @@ class Saddles {
   Saddle& at(PoolId above);
 
   Pools& pools_;
-  std::optional<Descent> descent_;  ///< once it is needed
-  std::vector<PoolId> by_first_;
+  const Descent& descent_;
   std::unordered_map<PoolId, Saddle> saddles_;
   std::int64_t n_looks_ = 0;
 };

@@ -24,7 +24,8 @@ constexpr Slopes::Target kFirstStep = kUnknown + 2;
 /// Fills in Slopes: follows every pixel downhill to what is known, a pool or a fork.
 class SlopeFinder {
  public:
-  SlopeFinder(Slopes& result, const Pools& pools) : to_(result), pools_(pools), descent_(pools) {}
+  SlopeFinder(Slopes& result, const Pools& pools, const Descent& descent)
+      : to_(result), pools_(pools), descent_(descent) {}
 
   void find() {
     const Pixel n = pools_.terrain().size();
@@ -168,13 +169,15 @@ class SlopeFinder {
 
   Slopes& to_;
   const Pools& pools_;
-  Descent descent_;
+  const Descent& descent_;
   Slopes::Target first_known_ = 0;  ///< the least number of a fork; all below are steps
   std::vector<Pixel> path_;
   std::vector<Pixel> lower_;
 };
 
-Slopes::Slopes(const Pools& pools) { SlopeFinder(*this, pools).find(); }
+Slopes::Slopes(const Pools& pools, const Descent& descent) {
+  SlopeFinder(*this, pools, descent).find();
+}
 
 /// Calls change(target) for every place that a pixel or a branch leads to.
 template <class Change>

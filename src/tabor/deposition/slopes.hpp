@@ -10,6 +10,7 @@
 namespace tabor::deposition {
 
 class Confluences;
+class Descent;
 
 /// Stores where the dry surface leads a droplet, found once and valid for any amount of liquid.
 ///
@@ -60,7 +61,7 @@ class Slopes {
   static bool is_pool(Target target) { return target >= 0; }
 
   /// Finds the slopes of pools with connected ties that hold no liquid yet.
-  explicit Slopes(const Pools& pools);
+  Slopes(const Pools& pools, const Descent& descent);
 
   Target from(Pixel p) const { return leads_to_[static_cast<std::size_t>(p)]; }
   std::size_t n_forks() const { return forks_.size(); }

@@ -4,7 +4,6 @@
 
 #include "tabor/core/error.hpp"
 #include "tabor/core/loops.hpp"
-#include "tabor/core/watch.hpp"
 
 namespace tabor::deposition {
 namespace {
@@ -39,11 +38,11 @@ Terrain quantise(const Field& height, Edge edge) {
   terrain.edge = edge;
   terrain.quantum = quantum_for(height.maxCoeff() - lowest);
   terrain.height.resize(static_cast<std::size_t>(height.size()));
-  for (std::size_t p = 0; p < terrain.height.size(); ++p) {
-    go_on_or_throw(p);
+  for_each(terrain.size(), [&](Pixel p) {
     const double quanta = std::nearbyint((height.data()[p] - lowest) / terrain.quantum);
-    terrain.height[p] = static_cast<Height>(static_cast<std::int64_t>(quanta) + kDry + 1);
-  }
+    terrain.height[static_cast<std::size_t>(p)] =
+        static_cast<Height>(static_cast<std::int64_t>(quanta) + kDry + 1);
+  });
   return terrain;
 }
 

@@ -21,16 +21,18 @@ class TieConnector {
 
  private:
   static std::size_t place(PoolId id) { return static_cast<std::size_t>(id); }
-  bool has_height(PoolId id) const;
   PoolId with_height(PoolId id);
+  void find_ties();
   void move_pixels();
   void move_children();
-  void make_arcs(const std::vector<PoolId>& number);
+  void put_in_order(const Pools::Numbers& numbers);
   void find_bottoms();
   void list_bottoms();
 
   Pools& to_;
   std::vector<PoolId> into_;  ///< per pool: itself where it has height, or a step up to such a one
+  std::vector<bool> is_at_rim_;            ///< per pool: some of its pixels are as high as its rim
+  std::vector<std::int32_t> n_below_rim_;  ///< per pool: the others
   std::vector<std::int32_t> n_moved_;  ///< per pool: pixels that it takes from the pools below it
 };
 
