@@ -301,6 +301,13 @@ TEST(EhlLine, WarnsOfAnInletThatStarvesTheContact) {
   EXPECT_THAT(warnings_with("500um"), Not(HasSubstr("short-inlet")));
 }
 
+TEST(EhlLine, SaysWhoseNumbersThoseOfALostFilmAre) {
+  const Outcome lost =
+      run_tabor(quick({"--set", "roughness.amplitude=2um", "--set", "roughness.wavelength=50um"}));
+  EXPECT_EQ(lost.code, 4);
+  EXPECT_THAT(lost.err, HasSubstr("% of the roughness, where these numbers are from"));
+}
+
 TEST(EhlLine, RejectsAGridForWhichThereIsNoMemory) {
   const Outcome outcome = run_tabor(quick({"--set", "grid.nodes=1000000000"}));
   EXPECT_EQ(outcome.code, 3);

@@ -348,6 +348,16 @@ TEST_F(LubricantVerbs, TablesThatCannotBeMadeAreRejected) {
   EXPECT_EQ(run_tabor(friction("7MPa", "0g/m^2") + Words{"--density-curve"}).code, 2);
 }
 
+TEST_F(LubricantVerbs, TablesThatWouldNotBePrintedAreRejected) {
+  for (const char* table : {"--density-curve", "--resolution-scan"}) {
+    const Words words = friction("7MPa", "0.45g/m^2") + Words{table, "--csv"};
+    const Outcome printed = run_tabor(words);
+    EXPECT_EQ(printed.code, 2);
+    EXPECT_THAT(printed.err, HasSubstr(std::string("without what ") + table + " adds"));
+    EXPECT_EQ(run_tabor(words + Words{file("states.csv")}).code, 0);
+  }
+}
+
 TEST_F(LubricantVerbs, FilesAreNamed) {
   const Words words = friction("7MPa", "0.45g/m^2");
   const Outcome none = run_tabor(words + Words{"-o", ""});

@@ -293,8 +293,16 @@ std::string text_of(const Scan& scan, const Request& request, const Solved& solv
   return text + '\n' + time.text();
 }
 
-/// Rejects a curve that cannot be made. A warning does not advise the table that is printed.
+/// Rejects a curve that cannot be made and a table that would not be printed. A warning does not
+/// advise the table that is.
 void check_tables(const Request& request, Context& context) {
+  const bool prints_states_alone = request.file.csv.prints() && !context.json;
+  if (prints_states_alone && (request.density_curve || request.resolution_scan)) {
+    throw UsageError(fmt::format(
+        "--csv prints the states alone, without what {} adds; name a file (--csv states.csv) to "
+        "read both, or give --json",
+        request.density_curve ? "--density-curve" : "--resolution-scan"));
+  }
   if (request.density_curve && !cases::has_density_curve(request.settings)) {
     throw UsageError(
         "--density-curve needs --model droplets or limit, an oil density above zero and one place "

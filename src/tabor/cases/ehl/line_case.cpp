@@ -85,15 +85,22 @@ void void_friction(WearResult& wear) {
   for (WearInstant& at : wear.history) at.friction_coefficient = kNone;
 }
 
-void warn_of_convergence(const LineRecord& record, Warnings& warnings) {
-  const Convergence& film = record.measures.convergence;
-  if (!film.converged()) {
-    warnings.push_back(
-        {"no-film",
-         fmt::format("The film was not found ({}). Try more nodes, a lower load or a lower "
-                     "viscosity",
-                     name_of(film.status))});
+/// What to tell of a film that was not found: whose numbers are shown, and what to try.
+std::string without_film(const LineResult& result) {
+  if (!(result.roughness_share < 1)) {
+    return fmt::format(
+        "The film was not found ({}). Try more nodes, a lower load or a lower viscosity",
+        name_of(result.convergence.status));
   }
+  return fmt::format(
+      "The film was lost at {:.0f} % of the roughness, where these numbers are from. Try more "
+      "nodes "
+      "or a lower roughness",
+      100 * result.roughness_share);
+}
+
+void warn_of_convergence(const LineResult& result, const LineRecord& record, Warnings& warnings) {
+  if (!result.convergence.converged()) warnings.push_back({"no-film", without_film(result)});
   if (record.wear && !record.wear->convergence.converged()) {
     warnings.push_back({"lost-film", "The film was lost while the track wore"});
   }
@@ -117,7 +124,7 @@ CaseResult solve(const io::Config& config, const CaseSetting& setting) {
     record.wear = wear_record(config, *wear);
     add(wear->warnings, answer.warnings);
   }
-  warn_of_convergence(record, answer.warnings);
+  warn_of_convergence(result, record, answer.warnings);
   answer.numbers = cells_of(line_columns(), record);
   answer.facts = facts_of(problem, result, record);
   answer.status = status_of(record.convergence());

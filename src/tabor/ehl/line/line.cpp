@@ -63,12 +63,17 @@ LineFilm::Outcome solve_from_hertz(const LineProblem& problem, const LineFilm& f
   return outcome;
 }
 
-/// Leads a film from the conditions of share 0 to those of share 1.
+/// Leads a film from the conditions of share 0 to those of share 1. `found`: the last share at
+/// which there was one.
 LineFilm::Outcome lead(const LineFilm& film, LineState& state,
-                       const std::function<LineConditions(double)>& conditions_at,
+                       const std::function<LineConditions(double)>& conditions_at, double& found,
                        const Observer& observer) {
+  found = 0;
   return numerics::follow(state, {}, [&](LineState& next, double share) {
-    return film.solve(next, conditions_at(share), {}, kMaxIterations, observer);
+    LineFilm::Outcome outcome =
+        film.solve(next, conditions_at(share), {}, kMaxIterations, observer);
+    if (outcome.convergence.converged()) found = share;
+    return outcome;
   });
 }
 
@@ -103,12 +108,14 @@ LineFilm::Outcome solve_as_shaped(const LineProblem& problem, const LineFilm& fi
   };
   outcome = outcome + solve_directly(problem, film, thicken(0), state, observer);
   if (!outcome.convergence.converged()) return outcome;
-  return outcome + lead(film, state, thicken, observer);
+  double coefficient_share = 0;
+  return outcome + lead(film, state, thicken, coefficient_share, observer);
 }
 
-/// Solves from the film of smooth bodies where rough ones fail.
+/// Solves from the film of smooth bodies where rough ones fail. `roughness_share`: what the film is
+/// left with where it is lost on the way from there.
 LineFilm::Outcome solve_cold(const LineProblem& problem, const LineFilm& film, LineState& state,
-                             const Observer& observer) {
+                             double& roughness_share, const Observer& observer) {
   const LineConditions& asked = film.conditions();
   if (problem.roughness.size() == 0) return solve_as_shaped(problem, film, asked, state, observer);
   LineFilm::Outcome outcome = solve_directly(problem, film, asked, state, observer);
@@ -120,7 +127,7 @@ LineFilm::Outcome solve_cold(const LineProblem& problem, const LineFilm& film, L
   };
   outcome = outcome + solve_as_shaped(problem, film, roughen(0), state, observer);
   if (!outcome.convergence.converged()) return outcome;
-  return outcome + lead(film, state, roughen, observer);
+  return outcome + lead(film, state, roughen, roughness_share, observer);
 }
 
 }  // namespace
@@ -178,9 +185,9 @@ namespace {
 
 LineResult solve(const LineProblem& problem, const LineFilm& film, const Observer& observer) {
   LineState state;
-  LineFilm::Outcome outcome = solve_cold(problem, film, state, observer);
-  require_inlet(problem, film, state, outcome);
   LineResult result;
+  LineFilm::Outcome outcome = solve_cold(problem, film, state, result.roughness_share, observer);
+  require_inlet(problem, film, state, outcome);
   result.x = film.x();
   result.pressure = state.pressure;
   result.film = state.film;

@@ -73,6 +73,9 @@ struct LineResult : LineMeasures {
   /// asperities have no law), 0 elsewhere.
   Eigen::ArrayXd shear_stress;
   Eigen::ArrayXd local_friction;  ///< shear_stress over p + P; 0 where nothing carries pressure
+  /// Part of the roughness under which this film was found: less than 1 where it has not converged
+  /// under all of it, but did under less.
+  double roughness_share = 1;
   Warnings warnings;
 };
 
