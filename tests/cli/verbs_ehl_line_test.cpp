@@ -305,7 +305,7 @@ TEST(EhlLine, SaysWhoseNumbersThoseOfALostFilmAre) {
   const Outcome lost =
       run_tabor(quick({"--set", "roughness.amplitude=2um", "--set", "roughness.wavelength=50um"}));
   EXPECT_EQ(lost.code, 4);
-  EXPECT_THAT(lost.err, HasSubstr("% of the roughness, where these numbers are from"));
+  EXPECT_THAT(lost.err, HasSubstr("% of the roughness; these numbers are from there"));
 }
 
 TEST(EhlLine, RejectsAGridForWhichThereIsNoMemory) {

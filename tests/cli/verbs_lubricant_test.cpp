@@ -353,7 +353,7 @@ TEST_F(LubricantVerbs, TablesThatWouldNotBePrintedAreRejected) {
     const Words words = friction("7MPa", "0.45g/m^2") + Words{table, "--csv"};
     const Outcome printed = run_tabor(words);
     EXPECT_EQ(printed.code, 2);
-    EXPECT_THAT(printed.err, HasSubstr(std::string("without what ") + table + " adds"));
+    EXPECT_THAT(printed.err, HasSubstr(std::string("without the table of ") + table));
     EXPECT_EQ(run_tabor(words + Words{file("states.csv")}).code, 0);
   }
 }

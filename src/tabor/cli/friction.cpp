@@ -296,12 +296,14 @@ std::string text_of(const Scan& scan, const Request& request, const Solved& solv
 /// Rejects a curve that cannot be made and a table that would not be printed. A warning does not
 /// advise the table that is.
 void check_tables(const Request& request, Context& context) {
-  const bool prints_states_alone = request.file.csv.prints() && !context.json;
-  if (prints_states_alone && (request.density_curve || request.resolution_scan)) {
+  std::vector<std::string> tables;
+  if (request.density_curve) tables.emplace_back("--density-curve");
+  if (request.resolution_scan) tables.emplace_back("--resolution-scan");
+  if (request.file.csv.prints() && !context.json && !tables.empty()) {
     throw UsageError(fmt::format(
-        "--csv prints the states alone, without what {} adds; name a file (--csv states.csv) to "
+        "--csv prints the states alone, without the table of {}; name a file (--csv states.csv) to "
         "read both, or give --json",
-        request.density_curve ? "--density-curve" : "--resolution-scan"));
+        fmt::join(tables, " and ")));
   }
   if (request.density_curve && !cases::has_density_curve(request.settings)) {
     throw UsageError(

@@ -2,10 +2,12 @@
 
 #include <array>
 #include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
 
 #include "tabor/core/large_pages.hpp"
 #include "tabor/core/rows.hpp"
-#include "tabor/core/watch.hpp"
 
 namespace tabor::deposition {
 namespace {
@@ -140,6 +142,14 @@ class Finder {
   }
 
   void number_bottoms() {
+    std::size_t n_bottoms = 1;
+    std::size_t n_saddles = 0;
+    for (const Part& part : parts_) {
+      n_bottoms += part.bottoms.size();
+      n_saddles += part.saddles.size();
+    }
+    basins_.bottoms.reserve(n_bottoms);
+    basins_.saddles.reserve(n_saddles);
     if (terrain_.edge == Edge::open) basins_.bottoms.push_back(rank_of(kDry, 0));
     for (Part& part : parts_) {
       for (const Rank bottom : part.bottoms) {
@@ -148,7 +158,8 @@ class Finder {
         basins_.bottoms.push_back(bottom);
       }
       basins_.saddles.insert(basins_.saddles.end(), part.saddles.begin(), part.saddles.end());
-      part = {};
+      release(part.bottoms);
+      release(part.saddles);
     }
   }
 

@@ -36,7 +36,7 @@ Branches::Branches(PoolTree&& tree) : branches_(tree.n_leaves), branch_of_(large
   for (std::size_t i = 0; i < n; ++i) {
     go_on_or_throw(i);
     bases_[place(number_[i])] = tree.base[i];
-    spills_to_[place(number_[i])] = leaf(tree.spills_to[i]);
+    spills_to_[place(number_[i])] = leaf_of(tree.spills_to[i]);
   }
   release(tree.base);
   release(tree.spills_to);

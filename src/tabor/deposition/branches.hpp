@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "tabor/core/large_pages.hpp"
 #include "tabor/deposition/pools.hpp"
 #include "tabor/deposition/ranks.hpp"
 
@@ -14,7 +15,7 @@ namespace tabor::deposition {
 /// children.
 struct PoolTree {
   std::vector<PoolId> parent;
-  std::vector<PoolId> spills_to;  ///< leaf that it runs over to, the only one; kNoPool: several
+  std::vector<PoolId> spills_to;  ///< the only basin that it can run over to; kNoPool: several
   std::vector<Rank> base;         ///< the lowest pixel, where children meet
   std::size_t n_leaves = 0;
 
@@ -34,10 +35,10 @@ class Branches {
   /// Takes the tree apart, so as to need less memory.
   explicit Branches(PoolTree&& tree);
 
-  /// Returns the number of a pool, counted along the branches: that of the smallest one that the
-  /// pixel is in, which drains to this leaf.
-  PoolId pool_of(PoolId leaf, Rank pixel) const {
-    const Branch* branch = &branches_[static_cast<std::size_t>(leaf)];
+  /// Returns the number of a pool, counted along the branches: that of the smallest one that a
+  /// pixel of this basin is in.
+  PoolId pool_of(PoolId basin, Rank pixel) const {
+    const Branch* branch = &branches_[static_cast<std::size_t>(basin)];
     PoolId begin = branch->begin;
     while (pixel >= branch->joins_at) {
       begin = branch->joins;
@@ -51,10 +52,10 @@ class Branches {
   PoolId spills_to(PoolId pool) const { return spills_to_[static_cast<std::size_t>(pool)]; }
   Rank base(PoolId pool) const { return bases_[static_cast<std::size_t>(pool)]; }
   std::size_t n_leaves() const { return branches_.size(); }
-  PoolId leaf(PoolId basin) const {
+  PoolId leaf_of(PoolId basin) const {
     return basin == kNoPool ? kNoPool : branches_[static_cast<std::size_t>(basin)].begin;
   }
-  PoolId last() const { return last_; }
+  PoolId last() const { return last_; }  ///< the pool that holds all others
 
  private:
   /// Pools from a leaf up, [begin, end).
@@ -87,7 +88,7 @@ class Branches {
     return begin + last_below(pixel, &bases_[static_cast<std::size_t>(begin)], end - begin);
   }
 
-  /// Without branches, which no processor could predict.
+  /// Without conditional jumps, which the processor would mispredict.
   static PoolId last_below(Rank pixel, const Rank* bases, PoolId n) {
     const Rank* last = bases;
     while (n > 1) {
@@ -105,7 +106,7 @@ class Branches {
   LargeVector<Rank> bases_;
   LargeVector<PoolId> parents_;
   LargeVector<PoolId> spills_to_;
-  PoolId last_ = kNoPool;  ///< the one that holds all others
+  PoolId last_ = kNoPool;
 };
 
 }  // namespace tabor::deposition

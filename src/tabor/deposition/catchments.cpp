@@ -7,6 +7,7 @@ namespace tabor::deposition {
 Catchments::Catchments(Pools& pools) : pools_(pools) {
   std::vector<std::int32_t> area(pools.count(), 0);
   for (Pixel p = 0; p < pools.terrain().size(); ++p) {
+    go_on_or_throw(static_cast<std::size_t>(p));
     ++area[static_cast<std::size_t>(pools.drains_to(p))];
   }
   for (std::size_t leaf = 0; leaf < area.size(); ++leaf) {

@@ -31,7 +31,7 @@ class Descent {
 
   std::vector<std::int32_t> first_;
   std::vector<std::int32_t> end_;
-  std::vector<PoolId> ids_;  ///< by numbers; those of pools that are left
+  std::vector<PoolId> ids_;  ///< by numbers; out of date where a pool has become part of another
 };
 
 /// Pools that unite in one parent; finds the child that holds a descendant.

@@ -30,6 +30,7 @@ class EvenRain {
     }
     if (wetting.films.empty()) return;
     for (std::size_t i = 0; i < states_.size(); ++i) {
+      go_on_or_throw(i);
       states_[i].dry = asked_from(pools_.places_of(static_cast<PoolId>(i)));
     }
   }

@@ -32,6 +32,7 @@ void check_places(std::size_t n_places) {
 }  // namespace
 
 void PoolBuilder::build() {
+  const OneThreadIfSmall limit(to_.terrain().size());
   Basins basins = find_basins(to_.terrain());
   join_basins(basins);
   go_on_or_throw();
@@ -43,7 +44,7 @@ void PoolBuilder::build() {
   make_arcs();
 }
 
-/// From the lowest saddle to the highest.
+/// Goes from the lowest saddle to the highest. Releases saddles and bottoms.
 void PoolBuilder::join_basins(Basins& basins) {
   sort_by_height(basins.saddles);
   const std::size_t n_leaves = basins.bottoms.size();
@@ -94,14 +95,14 @@ void PoolBuilder::find_sides(Rank saddle, const UnwrittenVector<PoolId>& basin_o
     const auto place = static_cast<std::size_t>(q);
     const Rank rank = q == kOutside ? 0 : rank_of(to_.terrain().height[place], q);
     if (rank >= saddle) return;
-    const PoolId drains = q == kOutside ? kOcean : basin_of[place];
-    const PoolId root = joined_.root(drains);
+    const PoolId basin = q == kOutside ? kOcean : basin_of[place];
+    const PoolId root = joined_.root(basin);
     const auto known = std::find_if(sides_.begin(), sides_.end(),
                                     [root](const Side& side) { return side.root == root; });
     if (known == sides_.end()) {
-      sides_.push_back({root, rank, drains});
+      sides_.push_back({root, rank, basin});
     } else if (rank < known->lowest) {
-      *known = {root, rank, drains};
+      *known = {root, rank, basin};
     }
   });
 }
@@ -114,7 +115,7 @@ void PoolBuilder::join_sides(Rank saddle) {
     const auto pool = static_cast<std::size_t>(largest_[static_cast<std::size_t>(side.root)]);
     tree_.parent[pool] = joined;
     if (sides_.size() == 2) {
-      tree_.spills_to[pool] = (&side == &sides_.front() ? sides_.back() : sides_.front()).drains;
+      tree_.spills_to[pool] = (&side == &sides_.front() ? sides_.back() : sides_.front()).basin;
     }
     root = joined_.join(root, side.root).root;
   }
@@ -145,7 +146,7 @@ void PoolBuilder::make_pools(const Branches& branches, UnwrittenVector<PoolId>&&
                      .overflow = {.end = numbers.of(branches.spills_to(before))}};
     to_.growth_[i] = {.lowest = pixel_of(base)};
   });
-  const auto leaf = [&](PoolId basin) { return numbers.of(branches.leaf(basin)); };
+  const auto leaf = [&](PoolId basin) { return numbers.of(branches.leaf_of(basin)); };
   for_each(static_cast<PoolId>(branches.n_leaves()),
            [&](PoolId basin) { growth(leaf(basin)).lowest = Growth::kNoPlace; });
   to_.drains_to_ = std::move(basin_of);
@@ -159,7 +160,10 @@ void PoolBuilder::make_pools(const Branches& branches, UnwrittenVector<PoolId>&&
 void PoolBuilder::make_arcs() {
   check_places(to_.sites_.size() + to_.pools_.size());
   std::vector<std::int32_t> next(to_.count(), 0);  // place for a pixel of each pool
-  for (const auto& site : to_.sites_) ++next[static_cast<std::size_t>(site.pool)];
+  for (std::size_t p = 0; p < to_.sites_.size(); ++p) {
+    go_on_or_throw(p);
+    ++next[static_cast<std::size_t>(to_.sites_[p].pool)];
+  }
   std::int32_t begin = 0;
   for (std::size_t id = 0; id < next.size(); ++id) {
     const std::int32_t n = std::exchange(next[id], begin);
@@ -169,15 +173,16 @@ void PoolBuilder::make_arcs() {
   to_.arcs_.resize(static_cast<std::size_t>(begin));
   if (lists_pixels_) to_.listed_.resize(to_.arcs_.size());
   const auto count = static_cast<Index>(to_.count());
-  parallel_for(count, std::max(kBlock, count / thread_count() + 1), [&](Index first, Index end) {
+  parallel_for(count, count / thread_count() + 1, [&](Index first, Index end) {
     fill_arcs(static_cast<PoolId>(first), static_cast<PoolId>(end), next);
   });
-  for_each(static_cast<PoolId>(count), [&](PoolId id) { finish_arcs(id); });
+  sort_arcs();
 }
 
 /// Fills the pools [first, end): each thread goes through all pixels for its part of the pools.
 void PoolBuilder::fill_arcs(PoolId first, PoolId end, std::vector<std::int32_t>& next) {
   for (std::size_t p = 0; p < to_.sites_.size(); ++p) {
+    go_on_or_throw(p);
     const auto& site = to_.sites_[p];
     if (site.pool < first || site.pool >= end) continue;
     const auto place = static_cast<std::size_t>(next[static_cast<std::size_t>(site.pool)]++);
@@ -186,21 +191,44 @@ void PoolBuilder::fill_arcs(PoolId first, PoolId end, std::vector<std::int32_t>&
   }
 }
 
+/// Sorts small pools side by side, and each large one on all threads.
+void PoolBuilder::sort_arcs() {
+  constexpr Index kPoolsOfBlock = 256;
+  const auto is_large = [this](PoolId id) {
+    const auto [begin, end] = to_.places_of(id);
+    return static_cast<std::size_t>(end - begin) > kFewRanks;
+  };
+  const auto count = static_cast<PoolId>(to_.count());
+  for_each(
+      count,
+      [&](PoolId id) {
+        if (!is_large(id)) finish_arcs(id);
+      },
+      kPoolsOfBlock);
+  for (PoolId id = 0; id < count; ++id) {
+    if (is_large(id)) finish_arcs(id);
+  }
+}
+
 void PoolBuilder::finish_arcs(PoolId id) {
-  const auto [begin, end] = to_.places_of(id);
-  if (lists_pixels_) {
-    sort_listed(static_cast<std::size_t>(begin), static_cast<std::size_t>(end));
+  const Pools::Places places = to_.places_of(id);
+  const auto begin = static_cast<std::size_t>(places.begin);
+  const auto end = static_cast<std::size_t>(places.end);
+  if (!lists_pixels_) {
+    sort_heights(std::span(to_.arcs_).subspan(begin, end - begin));
+  } else if (end - begin > kFewRanks) {
+    std::vector<Rank> ranks;
+    sort_listed(begin, end, ranks);
   } else {
-    sort_heights(std::span(to_.arcs_).subspan(static_cast<std::size_t>(begin),
-                                              static_cast<std::size_t>(end - begin)));
+    thread_local std::vector<Rank> ranks;
+    sort_listed(begin, end, ranks);
   }
   const PoolId parent = to_[id].parent;
-  to_.arcs_[static_cast<std::size_t>(end)] = parent == kNoPool ? kNoRim : to_[parent].level;
+  to_.arcs_[end] = parent == kNoPool ? kNoRim : to_[parent].level;
 }
 
 /// Sorts heights and pixels at these places together.
-void PoolBuilder::sort_listed(std::size_t begin, std::size_t end) {
-  thread_local std::vector<Rank> ranks;
+void PoolBuilder::sort_listed(std::size_t begin, std::size_t end, std::vector<Rank>& ranks) {
   ranks.clear();
   for (std::size_t i = begin; i < end; ++i) ranks.push_back(rank_of(to_.arcs_[i], to_.listed_[i]));
   sort_by_height(ranks);
@@ -208,7 +236,6 @@ void PoolBuilder::sort_listed(std::size_t begin, std::size_t end) {
     to_.arcs_[i] = height_of(ranks[i - begin]);
     to_.listed_[i] = pixel_of(ranks[i - begin]);
   }
-  if (ranks.size() > kBlock) release(ranks);
 }
 
 }  // namespace tabor::deposition

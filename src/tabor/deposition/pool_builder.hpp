@@ -21,9 +21,9 @@ class PoolBuilder {
  private:
   /// Set of basins that reaches a saddle.
   struct Side {
-    PoolId root;    ///< of the set
-    Rank lowest;    ///< its lowest neighbour of the saddle
-    PoolId drains;  ///< the basin of that one
+    PoolId root;   ///< of the set
+    Rank lowest;   ///< its lowest neighbour of the saddle
+    PoolId basin;  ///< of that one
   };
 
   void join_basins(Basins& basins);
@@ -34,15 +34,16 @@ class PoolBuilder {
   void make_pools(const Branches& branches, UnwrittenVector<PoolId>&& basin_of);
   void make_arcs();
   void fill_arcs(PoolId first, PoolId end, std::vector<std::int32_t>& next);
+  void sort_arcs();
   void finish_arcs(PoolId id);
-  void sort_listed(std::size_t begin, std::size_t end);
+  void sort_listed(std::size_t begin, std::size_t end, std::vector<Rank>& ranks);
   Growth& growth(PoolId id) { return to_.growth_[static_cast<std::size_t>(id)]; }
 
   Pools& to_;
   bool lists_pixels_;
   PoolTree tree_;
   numerics::DisjointSets<PoolId> joined_;  ///< basins, as far as they have met
-  std::vector<PoolId> largest_;            ///< per set of them, at its root: the pool of all
+  std::vector<PoolId> largest_;            ///< per set of them, at its root: its pool
   std::vector<Side> sides_;                ///< of the saddle that is looked at
 };
 

@@ -40,8 +40,9 @@ struct alignas(32) Pool {
   Height stop = kNoRim;     ///< where it next takes in pixels, or its rim
   std::int32_t area = 0;    ///< pixels under or at the level; before it is active, of full children
   std::int32_t remainder = 0;  ///< liquid above the level, less than one quantum over the area
-  FlowPath overflow = {};      ///< when it is full: where the overflow ran last; with ordered ties
-                               ///< before that a leaf on its path, or kNoPool
+  FlowPath overflow = {};      ///< when it is full: where the overflow ran last. With ordered ties,
+                               ///< before that: the leaf across its saddle where it has only one
+                               ///< sibling, else kNoPool
 
   /// True where the pool holds liquid. Not defined for the ocean, whose level lies below
   /// everything.
@@ -162,9 +163,9 @@ class Pools {
   bool replete() const;
   PoolId pool_beyond() const { return terrain_->edge == Edge::open ? kOcean : last_; }
 
-  /// Gives the pools new numbers, in the same order, and removes those that have become part of
-  /// others, so that the rest lies closer together in memory. Returns for each old number the new
-  /// one of the pool that holds it.
+  /// Only with connected ties: gives the pools new numbers, in the same order, and removes those
+  /// that have become part of others, so that the rest lies closer together in memory. Returns for
+  /// each old number the new one of the pool that holds it.
   std::vector<PoolId> renumber();
 
   /// Asks the processor to fetch a pool before it is needed.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <utility>
 
 #include "tabor/core/large_pages.hpp"
@@ -13,7 +14,6 @@ namespace {
 
 constexpr std::size_t kDigits = 2048;    // of a pass of the radix sort
 constexpr Index kBlockOfKeys = 1 << 20;  // that one thread sorts
-constexpr std::size_t kFew = 1 << 15;    // that are sorted as fast by comparing them
 
 /// Stable sort by digit_of(key), from `keys` to `sorted`. Blocks of keys are counted, and then
 /// moved, side by side.
@@ -54,7 +54,7 @@ void radix_sort(std::vector<Key>& keys, const NumberOf& number_of) {
 }  // namespace
 
 void sort_by_height(std::vector<Rank>& ranks) {
-  if (ranks.size() <= kFew) {
+  if (ranks.size() <= kFewRanks) {
     std::sort(ranks.begin(), ranks.end());
     return;
   }
@@ -62,7 +62,7 @@ void sort_by_height(std::vector<Rank>& ranks) {
 }
 
 void sort_heights(std::span<Height> heights) {
-  if (heights.size() <= kFew) {
+  if (heights.size() <= kFewRanks) {
     std::sort(heights.begin(), heights.end());
     return;
   }

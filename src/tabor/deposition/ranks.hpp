@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -22,11 +23,14 @@ inline Height height_of(Rank rank) {
   return static_cast<Height>(static_cast<std::uint32_t>(rank >> 32) ^ 0x80000000U);
 }
 
-/// Sorts ranks whose pixel numbers ascend. Many are sorted by their digits on all threads, which
-/// needs as much memory again.
+/// Ranks or heights of which there are no more are sorted by comparing them; more, by their digits
+/// on all threads, which needs as much memory again.
+inline constexpr std::size_t kFewRanks = 1 << 15;
+
+/// Sorts ranks whose pixel numbers ascend.
 void sort_by_height(std::vector<Rank>& ranks);
 
-/// Sorts heights in the same way.
+/// Sorts heights.
 void sort_heights(std::span<Height> heights);
 
 /// Returns all pixels in their order; needs 16 bytes per pixel meanwhile.

@@ -92,11 +92,13 @@ std::string without_film(const LineResult& result) {
         "The film was not found ({}). Try more nodes, a lower load or a lower viscosity",
         name_of(result.convergence.status));
   }
-  return fmt::format(
-      "The film was lost at {:.0f} % of the roughness, where these numbers are from. Try more "
-      "nodes "
-      "or a lower roughness",
-      100 * result.roughness_share);
+  const std::string known = result.roughness_share > 0
+                                ? fmt::format(
+                                      "up to {:.0f} % of the roughness; these numbers are "
+                                      "from there",
+                                      std::floor(100 * result.roughness_share))
+                                : "without the roughness; these numbers are those of smooth bodies";
+  return fmt::format("A film was only found {}. Try more nodes or a lower roughness", known);
 }
 
 void warn_of_convergence(const LineResult& result, const LineRecord& record, Warnings& warnings) {

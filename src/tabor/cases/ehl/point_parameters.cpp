@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "tabor/cases/ehl/case.hpp"
 #include "tabor/core/names.hpp"
 #include "tabor/core/units.hpp"
 #include "tabor/ehl/point/finish.hpp"
@@ -264,6 +265,12 @@ Parameters<PointSettings> grid_parameters() {
               &Settings::time_step)};
 }
 
+constexpr LoneKey kLonePointKeys[] = {
+    {"roughness.channel", "roughness.file"}, {"roughness.treatment", "roughness.file"},
+    {"roughness.rms", "roughness.kind"},     {"roughness.pixel", "roughness.kind"},
+    {"roughness.seed", "roughness.kind"},    {"roughness.groove_spacing", "roughness.kind"},
+    {"grid.time_step", "motion.duration"}};
+
 }  // namespace
 
 const Parameters<PointSettings>& point_parameters() {
@@ -282,6 +289,7 @@ const Parameters<PointSettings>& point_parameters() {
 PointSettings read_point_settings(const io::Config& file) {
   PointSettings settings;
   read_settings(file, point_parameters(), settings);
+  reject_lone(file, kLonePointKeys);
   return settings;
 }
 

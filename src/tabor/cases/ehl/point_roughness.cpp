@@ -161,18 +161,11 @@ Heights sum_of(const std::vector<Heights>& parts) {
   };
 }
 
-constexpr LoneKey kLonePointKeys[] = {
-    {"roughness.channel", "roughness.file"}, {"roughness.treatment", "roughness.file"},
-    {"roughness.rms", "roughness.kind"},     {"roughness.pixel", "roughness.kind"},
-    {"roughness.seed", "roughness.kind"},    {"roughness.groove_spacing", "roughness.kind"},
-    {"grid.time_step", "motion.duration"}};
-
 }  // namespace
 
 PointRoughness read_point_roughness(const io::Config& config, const PointProblem& problem,
                                     double travel, const CaseSetting& setting) {
   const PointRoughnessSettings settings = read_point_settings(config).roughness;
-  reject_lone(config, kLonePointKeys);
   PointRoughness roughness;
   std::vector<Heights> parts;
   const auto add_map = [&](const char* key, const Surface& surface, double behind) {
