@@ -36,10 +36,7 @@ void PoolBuilder::build() {
   Basins basins = find_basins(to_.terrain());
   join_basins(basins);
   go_on_or_throw();
-  const Branches branches(std::move(tree_));
-  place_pixels(basins.of_pixel, branches);
-  go_on_or_throw();
-  make_pools(branches, std::move(basins.of_pixel));
+  find_pools(std::move(basins.of_pixel));
   go_on_or_throw();
   make_arcs();
 }
@@ -120,6 +117,14 @@ void PoolBuilder::join_sides(Rank saddle) {
     root = joined_.join(root, side.root).root;
   }
   largest_[static_cast<std::size_t>(root)] = joined;
+}
+
+/// Finds the pool of each pixel, and numbers them all by place.
+void PoolBuilder::find_pools(UnwrittenVector<PoolId>&& basin_of) {
+  const Branches branches(std::move(tree_));
+  place_pixels(basin_of, branches);
+  go_on_or_throw();
+  make_pools(branches, std::move(basin_of));
 }
 
 void PoolBuilder::place_pixels(const UnwrittenVector<PoolId>& basin_of, const Branches& branches) {

@@ -30,6 +30,7 @@ class PoolBuilder {
   void find_sides(Rank saddle, const UnwrittenVector<PoolId>& basin_of);
   void join_sides(Rank saddle);
   void prefetch(const Basins& basins, std::size_t i) const;
+  void find_pools(UnwrittenVector<PoolId>&& basin_of);
   void place_pixels(const UnwrittenVector<PoolId>& basin_of, const Branches& branches);
   void make_pools(const Branches& branches, UnwrittenVector<PoolId>&& basin_of);
   void make_arcs();
