@@ -134,6 +134,7 @@ TEST(MissingUnit, IsProposedByTheQuantityAndNotByItsDimension) {
   EXPECT_EQ(proposed("12", "--oil-density", dimension::density), "900kg/m^3");
   EXPECT_EQ(proposed("0.1", "--fit-min", dimension::wavevector), "0.1/um");
   EXPECT_EQ(proposed("2e-8", "--pressure-viscosity", dimension::per_pressure), "2e-8/Pa");
+  EXPECT_EQ(proposed("1e-15", "wear.coefficient", dimension::per_pressure), "1e-15m^2/N");
   EXPECT_EQ(proposed("20", "--pressure-viscosity", dimension::per_pressure), "20/GPa");
   EXPECT_EQ(proposed("10", "ball.radius", dimension::length), "10mm");
   EXPECT_EQ(proposed("0.67", "scan.pixel", dimension::length), "0.67um");

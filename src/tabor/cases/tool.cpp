@@ -95,7 +95,7 @@ std::optional<Objection> objection_without_tool(
                                                 {"tool_repeats", settings.tool_repeats}};
   for (const auto& [setting, is_given] : given) {
     if (!is_given) continue;
-    return objection_to_use(setting, fmt::format("{0} needs {1}, e.g. {1} ground:Sa=0.1um",
+    return objection_to_use(setting, fmt::format("{} needs {}, e.g. <tool=ground:Sa=0.1um>",
                                                  spelling(setting), spelling("tool")));
   }
   return std::nullopt;

@@ -60,7 +60,7 @@ constexpr std::array kOrdinary{
     Ordinary{"damping", dimension::viscosity, 0, kInfinity, "1e5", {"N*s/m^2"}},
     Ordinary{"", dimension::viscosity, 1e-5, 20, "0.1", {"Pa*s", "mPa*s"}},
     Ordinary{"hardening", dimension::pressure_gradient, 1e9, 1e16, "100", {"MPa/um", "Pa/m"}},
-    Ordinary{"wear coefficient", dimension::per_pressure, 0, 1e-8, "1e-14", {"1/Pa"}},
+    Ordinary{"wear coefficient", dimension::per_pressure, 0, 1e-8, "1e-15", {"m^2/N"}},
     Ordinary{"", dimension::per_pressure, 1e-10, 1e-6, "2e-8", {"1/Pa", "1/GPa"}},
 
     Ordinary{"", dimension::wavevector, 1, 1e11, "0.1", {"1/um", "1/mm", "1/m"}},

@@ -45,9 +45,13 @@ std::string key_of(std::string_view setting) {
 
 void check(const io::Config& config, const std::optional<cases::Objection>& objection) {
   if (!objection) return;
-  const std::string place = config.place(key_of(objection->setting));
+  const std::string key = key_of(objection->setting);
+  const std::string place = config.place(key);
   const std::string remedy = advised(objection->remedy, spelling());
-  if (objection->got.empty()) throw InputError(place + ": " + remedy);
+  if (objection->got.empty()) {  // many sentences begin with the key, as the place ends
+    const bool says_key = place.ends_with(key) && remedy.starts_with(key + " ");
+    throw InputError(says_key ? place + remedy.substr(key.size()) : place + ": " + remedy);
+  }
   throw InputError(place, objection->got, objection->expected, remedy);
 }
 
