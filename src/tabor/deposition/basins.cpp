@@ -136,10 +136,8 @@ class Finder {
     return (row + terrain_.ny) % terrain_.ny * terrain_.nx + (column + terrain_.nx) % terrain_.nx;
   }
 
-  bool is_lower(Pixel a, Pixel b) const {
-    if (a == kOutside || b == kOutside) return a == kOutside && b != kOutside;
-    return height(a) < height(b) || (height(a) == height(b) && a < b);
-  }
+  Rank rank(Pixel p) const { return p == kOutside ? kOceanRank : rank_of(height(p), p); }
+  bool is_lower(Pixel a, Pixel b) const { return rank(a) < rank(b); }
 
   void number_bottoms() {
     std::size_t n_bottoms = 1;
@@ -150,7 +148,7 @@ class Finder {
     }
     basins_.bottoms.reserve(n_bottoms);
     basins_.saddles.reserve(n_saddles);
-    if (terrain_.edge == Edge::open) basins_.bottoms.push_back(rank_of(kDry, 0));
+    if (terrain_.edge == Edge::open) basins_.bottoms.push_back(kOceanRank);
     for (Part& part : parts_) {
       for (const Rank bottom : part.bottoms) {
         basins_.of_pixel[static_cast<std::size_t>(pixel_of(bottom))] =

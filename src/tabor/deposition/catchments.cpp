@@ -15,12 +15,8 @@ Catchments::Catchments(Pools& pools) : pools_(pools) {
   }
 }
 
-/// Order of height, pixel numbers breaking ties; beyond an open edge lies the lowest place.
-bool Catchments::lower(Pixel a, Pixel b) const {
-  if (a == kOutside || b == kOutside) return a == kOutside && b != kOutside;
-  const Height height_a = pools_.height(a);
-  const Height height_b = pools_.height(b);
-  return height_a < height_b || (height_a == height_b && a < b);
+Rank Catchments::rank(Pixel p) const {
+  return p == kOutside ? kOceanRank : rank_of(pools_.height(p), p);
 }
 
 void Catchments::drain(const std::vector<Volume>& liquid) {
@@ -62,7 +58,7 @@ PoolId Catchments::across_saddle(PoolId full) {
   const Pixel saddle = pools_.saddle(full);
   Pixel lowest = saddle;
   for_each_neighbour(pools_.terrain(), saddle, [&](Pixel q) {
-    if (lower(q, lowest)) {
+    if (rank(q) < rank(lowest)) {
       const PoolId pool = q == kOutside ? kOcean : pools_.owner(pools_.pool_at(q));
       const bool is_full = pools_[pool].full() && pools_[pool].parent == pools_[full].parent;
       lowest = is_full ? lowest : q;

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "tabor/deposition/pools.hpp"
+#include "tabor/deposition/ranks.hpp"
 
 namespace tabor::deposition {
 
@@ -28,7 +29,7 @@ class Catchments {
   const std::vector<Source>& sources() const { return sources_; }
 
  private:
-  bool lower(Pixel a, Pixel b) const;
+  Rank rank(Pixel p) const;
   PoolId across_saddle(PoolId full);
   void pour(PoolId first, Volume carried);
 

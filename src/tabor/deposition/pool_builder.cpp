@@ -90,7 +90,7 @@ void PoolBuilder::find_sides(Rank saddle, const UnwrittenVector<PoolId>& basin_o
   sides_.clear();
   for_each_neighbour(to_.terrain(), pixel_of(saddle), [&](Pixel q) {
     const auto place = static_cast<std::size_t>(q);
-    const Rank rank = q == kOutside ? 0 : rank_of(to_.terrain().height[place], q);
+    const Rank rank = q == kOutside ? kOceanRank : rank_of(to_.terrain().height[place], q);
     if (rank >= saddle) return;
     const PoolId basin = q == kOutside ? kOcean : basin_of[place];
     const PoolId root = joined_.root(basin);

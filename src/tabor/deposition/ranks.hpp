@@ -14,6 +14,8 @@ namespace tabor::deposition {
 /// above, the pixel number below.
 using Rank = std::uint64_t;
 
+inline constexpr Rank kOceanRank = 0;  ///< of what lies beyond an open edge: below all pixels
+
 inline Rank rank_of(Height height, Pixel p) {
   return (Rank{static_cast<std::uint32_t>(height) ^ 0x80000000U} << 32) |
          static_cast<std::uint32_t>(p);

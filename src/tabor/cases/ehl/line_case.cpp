@@ -87,18 +87,19 @@ void void_friction(WearResult& wear) {
 
 /// What to tell of a film that was not found: whose numbers are shown, and what to try.
 std::string without_film(const LineResult& result) {
-  if (!(result.roughness_share < 1)) {
-    return fmt::format(
-        "The film was not found ({}). Try more nodes, a lower load or a lower viscosity",
-        name_of(result.convergence.status));
+  if (result.roughness_share == 0) {
+    return "A film was only found without the roughness; these numbers are those of smooth bodies. "
+           "Try more nodes or a lower roughness";
   }
-  const std::string known = result.roughness_share > 0
-                                ? fmt::format(
-                                      "up to {:.0f} % of the roughness; these numbers are "
-                                      "from there",
-                                      std::floor(100 * result.roughness_share))
-                                : "without the roughness; these numbers are those of smooth bodies";
-  return fmt::format("A film was only found {}. Try more nodes or a lower roughness", known);
+  if (result.roughness_share < 1) {
+    return fmt::format(
+        "A film was only found up to {:.0f} % of the roughness; these numbers are from there. Try "
+        "more nodes or a lower roughness",
+        std::floor(100 * result.roughness_share));
+  }
+  return fmt::format(
+      "The film was not found ({}). Try more nodes, a lower load or a lower viscosity",
+      name_of(result.convergence.status));
 }
 
 void warn_of_convergence(const LineResult& result, const LineRecord& record, Warnings& warnings) {

@@ -63,16 +63,16 @@ LineFilm::Outcome solve_from_hertz(const LineProblem& problem, const LineFilm& f
   return outcome;
 }
 
-/// Leads a film from the conditions of share 0 to those of share 1. `found`: the last share at
-/// which there was one.
+/// Leads a film from the conditions of share 0 to those of share 1. `found`, if it is not null,
+/// becomes the last share at which there was one.
 LineFilm::Outcome lead(const LineFilm& film, LineState& state,
-                       const std::function<LineConditions(double)>& conditions_at, double& found,
+                       const std::function<LineConditions(double)>& conditions_at, double* found,
                        const Observer& observer) {
-  found = 0;
+  if (found != nullptr) *found = 0;
   return numerics::follow(state, {}, [&](LineState& next, double share) {
     LineFilm::Outcome outcome =
         film.solve(next, conditions_at(share), {}, kMaxIterations, observer);
-    if (outcome.convergence.converged()) found = share;
+    if (found != nullptr && outcome.convergence.converged()) *found = share;
     return outcome;
   });
 }
@@ -108,8 +108,7 @@ LineFilm::Outcome solve_as_shaped(const LineProblem& problem, const LineFilm& fi
   };
   outcome = outcome + solve_directly(problem, film, thicken(0), state, observer);
   if (!outcome.convergence.converged()) return outcome;
-  double coefficient_share = 0;
-  return outcome + lead(film, state, thicken, coefficient_share, observer);
+  return outcome + lead(film, state, thicken, nullptr, observer);
 }
 
 /// Solves from the film of smooth bodies where rough ones fail. `roughness_share`: what the film is
@@ -127,7 +126,7 @@ LineFilm::Outcome solve_cold(const LineProblem& problem, const LineFilm& film, L
   };
   outcome = outcome + solve_as_shaped(problem, film, roughen(0), state, observer);
   if (!outcome.convergence.converged()) return outcome;
-  return outcome + lead(film, state, roughen, roughness_share, observer);
+  return outcome + lead(film, state, roughen, &roughness_share, observer);
 }
 
 }  // namespace
